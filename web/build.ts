@@ -5,7 +5,7 @@ import { copyFileSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync,
 import { basename, dirname, join } from "node:path";
 import { type BuildOptions, build } from "esbuild";
 import { Marked } from "marked";
-import { ROM_BYTES, readNames } from "./src/board.ts";
+import { ascii, Board, bytesOf, ROM_BYTES, readNames } from "./src/board.ts";
 import { CATALOGUE } from "./src/catalogue.ts";
 import { pack } from "./src/link.ts";
 import type { Part } from "./src/parts.ts";
@@ -33,8 +33,27 @@ function programOf(path: string, ending: string): string {
   return command ? execFileSync(SKG, [command, path], { encoding: "latin1" }) : readFileSync(path, "latin1");
 }
 
+/** What the machine lists once it has loaded a program. */
+async function lister(): Promise<(program: string) => string> {
+  const code = await WebAssembly.compile(readFileSync("web/wasm/board.wasm"));
+  const board = await Board.create(code, readFileSync("roms/skg.bin"), readNames(readFileSync("roms/skg.sym", "latin1")));
+  const type = (line: string): void => {
+    board.type(bytesOf(line));
+    while (board.run(1_000_000) !== "prompt");
+    if (/ERR/.test(ascii(board.takePaper()))) throw new Error(`the machine does not take ${line}`);
+  };
+  type("\r");
+  return (program) => {
+    type("NEW\r");
+    board.tape(bytesOf(program));
+    type("LOAD\r");
+    return board.list(board.save());
+  };
+}
+
 /** All of examples/: those with a tape and a program that the standard ROM runs. */
-function parts(): Part[] {
+async function parts(): Promise<Part[]> {
+  const list = await lister();
   const files = readdirSync("examples").sort();
   return files
     .filter((file) => file.endsWith(".3b"))
@@ -44,7 +63,8 @@ function parts(): Part[] {
       if (!ending) return [];
       const program = programOf(join("examples", name + ending), ending);
       const { items } = readTape(readFileSync(join("examples", tape), "latin1"));
-      return [{ name, program, picture: thumbnail(layOut(items).layout, 64) }];
+      const listed = list(program);
+      return [{ name, program, picture: thumbnail(layOut(items).layout, 64), ...(listed === program ? {} : { listed }) }];
     });
 }
 
@@ -195,7 +215,7 @@ async function main(): Promise<void> {
       icons: [{ src: "icon.svg", sizes: "any", type: "image/svg+xml" }],
     }),
   );
-  const found = parts();
+  const found = await parts();
   compare(
     found.map(({ name }) => name),
     CATALOGUE.flatMap((group) => group.parts.map(({ name }) => name)),

@@ -11,23 +11,47 @@ export interface Names {
   element: number;
   along: number;
   run: number;
+  ready: number;
+  save: number;
   wire: number;
   operation: number;
 }
 
-/** A line on the punch: a block, `D` or `DD`, or `RUN` where a new tape begins; the program line that made it (0: a direct
+/** A line on the punch: a block, `D` or `DD`, or one of a program that SAVE punches; the program line that made it (0: a direct
  * statement), and where the wire stands behind it, whole µm. */
-export interface Punched {
+export interface PunchedLine {
   text: string;
   line: number;
   x: number;
   y: number;
 }
 
+/** The marks between punched lines, in the order of page.c's, behind the note of a line. */
+const MARKS = ["run", "prompt", "save", "reset"] as const;
+
+/** A mark: RUN begins (`from`: the line of RUN n, else 0), the board comes to its prompt, SAVE begins, the reset button. A line
+ * that was not whole before it is no line. */
+export interface PunchMark {
+  mark: (typeof MARKS)[number];
+  from: number;
+}
+
+export type Punched = PunchedLine | PunchMark;
+
 interface Exports {
   memory: WebAssembly.Memory;
   page_buffer(length: number): number;
-  page_names(current: number, direct: number, element: number, along: number, run: number, wire: number, operation: number): void;
+  page_names(
+    current: number,
+    direct: number,
+    element: number,
+    along: number,
+    run: number,
+    ready: number,
+    save: number,
+    wire: number,
+    operation: number,
+  ): void;
   page_board(which: number, length: number): number;
   page_reset(which: number): void;
   page_type(which: number, length: number): number;
@@ -48,8 +72,8 @@ interface Exports {
   page_take_paper(which: number): number;
   page_punched(which: number): number;
   page_take_punch(which: number): number;
-  page_made(which: number): number;
-  page_take_makers(which: number): number;
+  page_noted(which: number): number;
+  page_take_notes(which: number): number;
   page_save(which: number): number;
   page_restore(which: number, length: number): void;
 }
@@ -73,17 +97,19 @@ export interface Look {
 
 export const RAM_BYTES = 8192;
 export const ROM_BYTES = 8192;
-const MAKER = 3;
+/** Numbers of a note beside the punch: its place, its kind, a line, x, y; each of 8 bytes. */
+const NOTE = 5;
 const VISITORS = 0;
 const SCRATCH = 1;
 const SPACE = 65536;
 /** Cycles that LIST and a reset may take on the second board: 50 s of the real one. */
 const PATIENCE = 100_000_000;
+const [NEW_LINE, BLANK, RUBOUT] = [10, 32, 127];
 /** LOAD looks at the empty reader for so many cycles before it is said that it waits for a tape. */
 const SILENCE = 6_000_000;
 
-/** Bytes of a CALL. */
-const CALL = 3;
+/** Bytes of what RUN does before it begins: CALL, MOV, ORA, CNZ. */
+const UNTIL_RUN = 8;
 
 /** Addresses for `Names` from a .sym file: lines with a hexadecimal value and a name. A missing name is an Error. */
 export function readNames(sym: string): Names {
@@ -104,8 +130,10 @@ export function readNames(sym: string): Names {
     direct: value("NXTP"),
     element: value("NTOC"),
     along: value("ADVANC"),
-    // Behind the call that ends its line: a line that is only looked at (10 RUN) does not come back from there.
-    run: value("SRUN") + CALL,
+    // Behind the calls that end its line (one that is only looked at, 10 RUN, does not come back from there) and look for n.
+    run: value("SRUN") + UNTIL_RUN,
+    ready: value("READY"),
+    save: value("SSAVE"),
     wire: value("MREG") + 5 * register,
     operation: value("CALC1"),
   };
@@ -114,14 +142,16 @@ export function readNames(sym: string): Names {
 export class Board {
   readonly #wasm: Exports;
   readonly #rom: Uint8Array;
-  #rest = new Uint8Array(0);
+  /** The line on the punch that is not whole yet, and its note. */
+  #rest: number[] = [];
+  #restOf: Omit<PunchedLine, "text"> = { line: 0, x: 0, y: 0 };
   #scratch = false;
 
   private constructor(wasm: Exports, rom: Uint8Array, names: Names) {
     this.#wasm = wasm;
     this.#rom = rom;
-    const { current, direct, element, along, run, wire, operation } = names;
-    wasm.page_names(current, direct, element, along, run, wire, operation);
+    const { current, direct, element, along, run, ready, save, wire, operation } = names;
+    wasm.page_names(current, direct, element, along, run, ready, save, wire, operation);
     this.#make(VISITORS);
   }
 
@@ -208,30 +238,38 @@ export class Board {
     return this.#copy(this.#wasm.page_take_paper(VISITORS), length);
   }
 
-  /** The lines that were punched since this was last asked; one that is not whole yet stays for the next time. */
+  /** The lines that were punched since this was last asked, and the marks between them; a line that is not whole yet stays for
+   * the next time. */
   takePunched(): Punched[] {
-    const made = this.#wasm.page_made(VISITORS) / 8;
-    const makers = new Float64Array(this.#copy(this.#wasm.page_take_makers(VISITORS), made * 8).buffer);
+    const noted = this.#wasm.page_noted(VISITORS);
+    const notes = new Float64Array(this.#copy(this.#wasm.page_take_notes(VISITORS), noted).buffer);
     const length = this.#wasm.page_punched(VISITORS);
     const bytes = this.#copy(this.#wasm.page_take_punch(VISITORS), length);
-    const all = join(this.#rest, bytes);
-    const kept = this.#kept.concat([...makers]);
     const found: Punched[] = [];
-    let first = 0;
-    for (let at = 0; at < all.length; at++) {
-      if (all[at] !== 10) continue;
-      const text = ascii(all.subarray(first, at)).replace(/[^ -~]/g, "");
-      first = at + 1;
-      if (!text) continue;
-      const [line = 0, x = 0, y = 0] = kept.splice(0, MAKER);
-      found.push({ text, line, x, y });
+    let read = 0;
+    const upTo = (end: number): void => {
+      for (; read < end; read++) {
+        const byte = (bytes[read] as number) & 0x7f;
+        if (byte !== NEW_LINE) {
+          if (byte >= BLANK && byte < RUBOUT) this.#rest.push(byte);
+          continue;
+        }
+        const text = String.fromCharCode(...this.#rest);
+        if (text) found.push({ text, ...this.#restOf });
+        this.#rest = [];
+      }
+    };
+    for (let note = 0; note < notes.length; note += NOTE) {
+      const [at = 0, what = 0, line = 0, x = 0, y = 0] = notes.subarray(note, note + NOTE);
+      upTo(at);
+      const mark = MARKS[what - 1];
+      if (mark) found.push({ mark, from: line });
+      else this.#restOf = { line, x, y };
+      if (mark) this.#rest = [];
     }
-    this.#rest = all.slice(first);
-    this.#kept = kept;
+    upTo(bytes.length);
     return found;
   }
-
-  #kept: number[] = [];
 
   /** A copy of the RAM. */
   save(): Uint8Array {
@@ -328,11 +366,4 @@ export function bytesOf(text: string): Uint8Array<ArrayBuffer> {
   return Uint8Array.from(text, (character) => Math.min(character.codePointAt(0) ?? 63, 128)).map((byte) =>
     byte > 126 && byte !== 127 ? 63 : byte,
   );
-}
-
-function join(a: Uint8Array, b: Uint8Array): Uint8Array<ArrayBuffer> {
-  const both = new Uint8Array(a.length + b.length);
-  both.set(a);
-  both.set(b, a.length);
-  return both;
 }

@@ -9,8 +9,9 @@ import { bindShell, view } from "./shell.ts";
 import type { Settings } from "./store.ts";
 import type { Teletype } from "./teletype.ts";
 import type { Workbench } from "./workbench.ts";
+import type { Works } from "./works.ts";
 
-export function bind(bench: Workbench, teletype: Teletype, opening: Opening, settings: Settings): void {
+export function bind(bench: Workbench, teletype: Teletype, opening: Opening, settings: Settings, works: Works): void {
   bindShell();
   onClick("run", () => (bench.session.isRunning ? bench.session.stop() : void bench.run()));
   // RETURN that is meant for a program that asks is no ctrl-C.
@@ -23,7 +24,7 @@ export function bind(bench: Workbench, teletype: Teletype, opening: Opening, set
   onClick("copy-link", () => void copyLink(bench.editor.text, false));
   onClick("copy-embed", () => void copyLink(bench.editor.text, true));
   for (const button of document.querySelectorAll<HTMLElement>("[data-save]")) {
-    button.addEventListener("click", () => void save(button.dataset["save"] ?? "", bench, settings));
+    button.addEventListener("click", () => void save(button.dataset["save"] ?? "", bench, settings, works));
   }
   bindKeys(bench);
   bindDrawing(bench);

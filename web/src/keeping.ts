@@ -22,6 +22,9 @@ export function keepSafe(bench: Workbench, store: Store, works: Works, changed: 
     if (document.visibilityState === "hidden") leave();
   });
   addEventListener("beforeunload", (event) => {
-    if (store.isRefused && works.isOwn(bench.editor.text)) event.preventDefault();
+    // (what would be kept only when the page is left may be refused then: it is kept now)
+    bench.session.keep();
+    leave();
+    if (store.losesWorks || (store.isRefused && works.isOwn(bench.editor.text))) event.preventDefault();
   });
 }

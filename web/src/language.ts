@@ -130,7 +130,7 @@ const WORDS = {
   tapeNoEnd: [" There is no DD at its end.", " 末尾没有 DD。"],
   copied: ["Copied.", "已复制。"],
   copyThis: ["Copy this: {0}", "请复制：{0}"],
-  imported: ["{0} is back: program, variables, settings, tape.", "{0} 已恢复：程序、变量、设置、纸带。"],
+  imported: ["{0} is back: program, variables, settings, tape, My programs.", "{0} 已恢复：程序、变量、设置、纸带、我的程序。"],
   badTape: [
     "{0} is no tape: block {1}, line {2}, column {3}: “{4}” cannot be read.",
     "{0} 不是纸带：第 {1} 段，第 {2} 行第 {3} 列：“{4}” 无法读取。",
@@ -171,6 +171,8 @@ const WORDS = {
   ],
   works: ["My programs", "我的程序"],
   deleteWork: ["Delete {0}", "删除 {0}"],
+  deleted: ["{0} is deleted.", "{0} 已删除。"],
+  undo: ["Undo", "撤销"],
   revert: ["Back to the machine's program", "恢复机器中的程序"],
   dismiss: ["Close this message", "关闭消息"],
   close: ["Close", "关闭"],
@@ -187,7 +189,6 @@ const WORDS = {
   ],
   notAscii: ["the machine has no character {0}: it knows ASCII alone", "机器没有字符 {0}：只能使用 ASCII"],
   stale: ["{0}; program changed: press RUN", "{0}；程序已更改：请按运行"],
-  link: ["from a link", "来自链接"],
   fromFile: ["from the file {0}", "来自文件 {0}"],
   askPartial: [
     "The tape has no end: the run was broken off, or is not over. A machine would stop in the middle of the part.",
@@ -196,6 +197,18 @@ const WORDS = {
   askStale: [
     "The program was changed after this tape was made: the tape is that of the program before.",
     "此纸带生成后程序已更改：纸带对应更改前的程序。",
+  ],
+  askPart: ["RUN {0} made this tape: it begins in the middle of the program.", "此纸带由 RUN {0} 生成：不是从程序开头运行的。"],
+  askTyped: [
+    "Statements typed at the teletype made this tape, or a part of it: it is not the program's.",
+    "此纸带全部或部分由电传打字机键入的语句生成，不是程序的纸带。",
+  ],
+  fromLine: ["{0}, RUN {1}", "{0}，RUN {1}"],
+  typed: ["statements typed at the teletype", "电传打字机键入的语句"],
+  mixed: ["{0}, and statements typed behind it", "{0}，以及随后键入的语句"],
+  punchedProgram: [
+    "SAVE has punched the program. The drawing and its tape are as before.",
+    "SAVE 已穿孔输出程序。图形及其纸带保持不变。",
   ],
   saveAnyway: ["Save it all the same", "仍然保存"],
   otherTab: [

@@ -19,7 +19,7 @@ import { Teletype } from "./teletype.ts";
 import { isUpdated } from "./update.ts";
 import { Welcome } from "./welcome.ts";
 import { Workbench } from "./workbench.ts";
-import { isAlike, showWorks, Works } from "./works.ts";
+import { showWorks, Works } from "./works.ts";
 
 const WIRE = 0.18;
 
@@ -36,12 +36,10 @@ const settings: Settings = {
   ...sound(store.settings),
 };
 
-const works = new Works(
-  isEmbedded ? { works: [] } : store,
-  (program) => opening.parts.some((part) => isAlike(part.program, program)),
-  tellWorks,
-);
-const bench = new Workbench({ works, isAuto: () => settings.auto, openManual, showDrawing });
+const partOf = (text: string): string | undefined =>
+  opening.parts.find(({ program, listed }) => text === program || text === listed)?.name;
+const works = new Works(isEmbedded ? { works: [] } : store, (program) => partOf(program) !== undefined, tellWorks);
+const bench = new Workbench({ works, partOf, isAuto: () => settings.auto, openManual, showDrawing });
 const teletype = new Teletype(get("terminal"), { type: (text) => session.type(text), press: (key) => session.press(key) }, "");
 const status = new StatusLine(bench, teletype);
 const inside = new Inside();
@@ -51,7 +49,6 @@ const session = new Session(workerAddress(), teletype, isEmbedded ? undefined : 
   state: (state) => {
     const { recording } = bench.stage;
     if (state === "prompt") {
-      recording.leave(false);
       if (!isEmbedded) store.tape = recording.kept;
       void welcome.isCut();
     }
@@ -73,7 +70,7 @@ const session = new Session(workerAddress(), teletype, isEmbedded ? undefined : 
 bench.session = session;
 const menu = new SettingsMenu(settings, bench, teletype, (changed) => (store.settings = changed));
 const opening = new Opening(bench, works, (changed) => menu.apply(changed));
-bind(bench, teletype, opening, settings);
+bind(bench, teletype, opening, settings, works);
 for (const button of document.querySelectorAll(".pane .close")) button.addEventListener("click", closePane);
 onClick("machine", () => void inside.open(session));
 get("manual").addEventListener("click", (event) => {
@@ -88,7 +85,7 @@ function showDrawing(): void {
 }
 
 function tellWorks(): void {
-  showWorks(works, (work) => void bench.open(work.name, work.program, true));
+  showWorks(works, (work) => opening.work(work));
 }
 
 function tellParts(): void {
@@ -123,10 +120,9 @@ async function begin(): Promise<void> {
   if (!session.start(settings.speed, last, readImages())) warn(t("badKept"));
   if (last?.draft !== undefined) bench.editor.text = last.draft;
   const tape = last && store.tape;
-  if (tape) {
-    bench.name = tape.made.name;
-    bench.stage.show(tape);
-  }
+  if (last?.about?.work) works.goOn(last.about.work);
+  bench.origin = last?.about?.origin;
+  if (tape) bench.stage.show(tape);
   if (isEmbedded) {
     const full = get<HTMLAnchorElement>("full");
     full.hidden = false;

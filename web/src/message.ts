@@ -7,8 +7,8 @@ export interface Offer {
   take: () => void;
 }
 
-/** A message that stays until it is put away: others cover it for a while. */
-let lasting: { text: string; offer: Offer | undefined } | undefined;
+/** Messages that stay until they are put away: others cover them for a while. */
+let lasting: { text: string; offer: Offer | undefined }[] = [];
 
 export function say(word: Word, ...values: (string | number)[]): void {
   show(t(word, ...values));
@@ -16,7 +16,7 @@ export function say(word: Word, ...values: (string | number)[]): void {
 
 /** Says something that is not hidden by what is done next: what is at stake is the visitor's work. */
 export function warn(text: string, offer?: Offer): void {
-  lasting = { text, offer };
+  lasting = [...lasting.filter((each) => each.text !== text), { text, offer }];
   show(text, offer);
 }
 
@@ -35,12 +35,14 @@ export function show(text: string, offer?: Offer): void {
 
 /** The visitor has read what is said. */
 export function dismiss(): void {
-  if (get("message").firstElementChild?.textContent === lasting?.text) lasting = undefined;
+  const text = get("message").firstElementChild?.textContent;
+  lasting = lasting.filter((each) => each.text !== text);
   hide();
 }
 
 export function hide(): void {
-  if (lasting) show(lasting.text, lasting.offer);
+  const last = lasting.at(-1);
+  if (last) show(last.text, last.offer);
   else get("message").hidden = true;
 }
 

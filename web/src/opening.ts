@@ -7,7 +7,7 @@ import { say, show } from "./message.ts";
 import { markPart, type Part } from "./parts.ts";
 import type { Everything, Settings } from "./store.ts";
 import type { Workbench } from "./workbench.ts";
-import type { Works } from "./works.ts";
+import type { Work, Works } from "./works.ts";
 
 export class Opening {
   readonly #bench: Workbench;
@@ -24,8 +24,8 @@ export class Opening {
 
   /** Opens a part, and shows it cut. */
   part(part: Part, run = true): void {
+    void this.#bench.open(part.program, { run, isSound: true });
     markPart(get("part-list"), part.name);
-    void this.#bench.open(part.name, part.program, run, true);
   }
 
   /** Follows the address' `#…`; false where there is none. */
@@ -36,7 +36,7 @@ export class Opening {
       const part = this.parts.find(({ name }) => name === link.part);
       // (what is changed from here on is the visitor's: a reload does not bring the link's program again)
       if (!link.embed) history.replaceState(null, "", location.pathname + location.search);
-      if (link.program !== undefined) await this.#bench.open("link", link.program, link.run);
+      if (link.program !== undefined) await this.#open(link.program, { run: link.run });
       else if (part) this.part(part, link.run);
       else if (link.part !== undefined) say("badPart", link.part);
       else return false;
@@ -47,12 +47,21 @@ export class Opening {
     return true;
   }
 
+  /** Opens a work of the visitor's. */
+  work({ program }: Work): void {
+    void this.#open(program, { run: true });
+  }
+
+  #open(text: string, how: { run?: boolean; file?: string }): Promise<void> {
+    markPart(get("part-list"), undefined);
+    return this.#bench.open(text, how);
+  }
+
   async file(file: File): Promise<void> {
     const found = tooLarge(file.name, file.size) ?? recognize(file.name, new Uint8Array(await file.arrayBuffer()));
     switch (found.kind) {
       case "program":
-        markPart(get("part-list"), undefined);
-        await this.#bench.open(file.name, found.text, false);
+        await this.#open(found.text, { file: file.name });
         break;
       case "tape":
         await this.#tape(file.name, found.text);
@@ -82,17 +91,19 @@ export class Opening {
   }
 
   /** A page that was saved: its machine, its text, its settings, its tape. */
-  async #saved({ kept, settings, tape }: Everything): Promise<void> {
+  async #saved({ kept, settings, tape, how, from, works }: Everything): Promise<void> {
     const { editor, session } = this.#bench;
     this.#apply(settings);
+    this.#works.add(works ?? []);
     if (kept) {
       this.#bench.keepText();
       this.#works.begin();
       session.bringBack(kept);
       if (kept.draft !== undefined) editor.text = kept.draft;
+      this.#bench.origin = kept.about?.origin;
     }
     const read = tape ? await readWhole("saved", tape) : undefined;
     if (!read || "why" in read) return;
-    this.#bench.stage.open(read, this.#bench.name);
+    this.#bench.stage.open(read, this.#bench.name, how, from);
   }
 }

@@ -6,6 +6,8 @@ import { spoken } from "./language.ts";
 export interface Part {
   name: string;
   program: string;
+  /** The program as the machine lists it, where that is another text: it prints eight digits. */
+  listed?: string;
   /** Path data in a square of 64. */
   picture: string;
 }

@@ -8,13 +8,13 @@ import { t } from "./language.ts";
 import { PunchedTape } from "./punched.ts";
 import type { Maker, Recording } from "./recording.ts";
 import { WalkBar } from "./walkbar.ts";
-import { titleOf } from "./works.ts";
+import { nameOf } from "./works.ts";
 
 /** A machine's feed, mm a minute. */
 const FEED = 5;
 
-/** The name of a tape's maker: a part of the list, a link, or one's own program by its title. */
-const shownName = ({ name, program }: Maker): string => partTitle(name) ?? (name === "link" ? t("link") : titleOf(program ?? ""));
+/** The name of a tape's maker: a part of the list, or a program by its title. */
+const shownName = ({ name, program, isPart }: Maker): string => (isPart && partTitle(name)) || nameOf(program ?? "");
 
 export class Pictures {
   readonly drawing: Drawing;
@@ -77,7 +77,7 @@ export class Pictures {
 
   /** Writes what there is to say of it, in the present language. */
   say(): void {
-    const { text, layout, isEmpty, isWhole, millimetres, made } = this.#recording;
+    const { text, layout, isEmpty, isWhole, millimetres, made, how, from } = this.#recording;
     this.punched.show(text, text.length);
     get("no-blocks").hidden = !isEmpty;
     get("sum").textContent = isEmpty
@@ -85,9 +85,10 @@ export class Pictures {
       : `${t("summary", layout.blocks.length, millimetres.toFixed(1))}${isWhole ? "" : ` · ${t("partial")}`}`;
     get("time").textContent = isEmpty ? "" : t("time", Math.ceil(millimetres / FEED));
     const source = get("made");
-    const name = made.program === undefined ? t("fromFile", made.name) : shownName(made);
+    const maker = made.program === undefined ? t("fromFile", made.name) : shownName(made);
+    const name = { run: maker, part: t("fromLine", maker, from), typed: t("typed"), mixed: t("mixed", maker) }[how];
     source.textContent = isEmpty ? "" : this.isStale ? t("stale", name) : name;
-    source.classList.toggle("stale", this.isStale && !isEmpty);
+    source.classList.toggle("stale", (this.isStale || how !== "run") && !isEmpty);
   }
 
   retell(): void {

@@ -8,18 +8,21 @@ import { ask, say } from "./message.ts";
 import type { Everything, Settings } from "./store.ts";
 import { svgText } from "./svg.ts";
 import type { Workbench } from "./workbench.ts";
+import type { Work, Works } from "./works.ts";
 
-export function everything({ session, stage: { recording } }: Workbench, settings: Settings): Everything {
-  return { format: "skg-page", version: 1, kept: session.kept, settings: { ...settings }, tape: recording.text };
+export function everything({ session, stage: { recording } }: Workbench, settings: Settings, works: Work[]): Everything {
+  const { text, how, from } = recording;
+  return { format: "skg-page", version: 1, kept: session.kept, settings: { ...settings }, tape: text, how, from, works };
 }
 
-/** Saves one kind of file. A tape without its end, or of another program than the one that is seen, is asked for first. */
-export async function save(kind: string, bench: Workbench, settings: Settings): Promise<void> {
+/** Saves one kind of file. A tape that one RUN of the program that is seen has not made, from its first line to its end, is asked
+ * for first. */
+export async function save(kind: string, bench: Workbench, settings: Settings, works: Works): Promise<void> {
   const { editor, name } = bench;
   const { recording } = bench.stage;
-  const { layout, made, isWhole } = recording;
+  const { layout, made, isWhole, how, from } = recording;
   if (kind === "json") {
-    saveFile(`${name}.json`, JSON.stringify(everything(bench, settings)));
+    saveFile(`${name}.json`, JSON.stringify(everything(bench, settings, works.all)));
     return;
   }
   if (kind === "skg") {
@@ -31,9 +34,14 @@ export async function save(kind: string, bench: Workbench, settings: Settings): 
     say("noBlocks");
     return;
   }
-  const doubts = [...(isWhole ? [] : [t("askPartial")]), ...(bench.isStale ? [t("askStale")] : [])];
+  const doubts = [
+    ...(isWhole ? [] : [t("askPartial")]),
+    ...(how === "part" ? [t("askPart", from)] : how === "run" ? [] : [t("askTyped")]),
+    ...(bench.isStale ? [t("askStale")] : []),
+  ];
   if (doubts.length && !(await ask(doubts.join(" "), t("saveAnyway")))) return;
-  const stem = `${made.name}${isWhole ? "" : "-unfinished"}`;
+  const by = how === "run" ? "" : how === "part" ? `-from-${from}` : "-typed";
+  const stem = `${made.name}${by}${isWhole ? "" : "-unfinished"}`;
   const texts: Record<string, () => [string, string]> = {
     "3b": () => [".3b", recording.text],
     iso: () => [".nc", isoText(layout, isWhole)],

@@ -1,6 +1,7 @@
 /** The machine as the page has it: what it does now, the program in it, its paper, and what is kept of it. */
 import type { Look, Punched } from "./board.ts";
 import { ErrorLines } from "./errorline.ts";
+import type { Origin } from "./identity.ts";
 import { Machine } from "./machine.ts";
 import type { Images, Refused, Speed, State } from "./runner.ts";
 import { Keys, type Strange } from "./signs.ts";
@@ -39,6 +40,8 @@ export class Session {
   isAlive = true;
   /** The text in the editor, where it is not the program. */
   draft: string | undefined;
+  /** The identity of what is written. */
+  about: { work?: string | undefined; origin?: Origin | undefined } = {};
 
   /** Without a store nothing is kept. */
   constructor(worker: string | URL, teletype: Teletype, store: Store | undefined, hooks: Hooks) {
@@ -89,10 +92,16 @@ export class Session {
   }
 
   get kept(): Kept | null {
-    const { draft } = this;
+    const { draft, about } = this;
     // (a text that is written before the machine is there, or without one)
-    if (!this.#kept) return draft === undefined ? null : { ...(this.#last ?? NOTHING), draft };
-    return { ...this.#kept, program: this.program, paper: this.#teletype.paper, ...(draft === undefined ? {} : { draft }) };
+    if (!this.#kept) return draft === undefined ? null : { ...(this.#last ?? NOTHING), draft, about };
+    return {
+      ...this.#kept,
+      program: this.program,
+      paper: this.#teletype.paper,
+      ...(draft === undefined ? {} : { draft }),
+      about,
+    };
   }
 
   keep(): void {

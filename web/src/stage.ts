@@ -2,8 +2,7 @@
 import type { Punched } from "./board.ts";
 import { Chooser } from "./choice.ts";
 import { Pictures } from "./pictures.ts";
-import { type KeptTape, type Maker, type Opened, Recording } from "./recording.ts";
-import { isSame } from "./works.ts";
+import { type How, type KeptTape, type Maker, type Opened, Recording } from "./recording.ts";
 
 export class Stage {
   readonly chooser = new Chooser();
@@ -27,18 +26,16 @@ export class Stage {
   }
 
   /** Shows a tape from a file. */
-  open(tape: Opened, name: string): void {
-    this.recording.open(tape, name);
+  open(tape: Opened, name: string, how?: How, from?: number): void {
+    this.recording.open(tape, name, how, from);
     this.pictures.isStale = false;
     this.#begin();
     this.pictures.grown(true);
   }
 
   /** Shows the tape of the last visit. */
-  show({ made, lines }: KeptTape): void {
-    this.recording.clear(made);
-    const begun = (): void => undefined;
-    this.recording.take(lines, () => made, begun);
+  show(tape: KeptTape): void {
+    this.recording.again(tape);
     this.#begin();
     this.pictures.grown(true);
   }
@@ -51,8 +48,8 @@ export class Stage {
 
   /** It was made by another program than this one. */
   isOther(text: string): boolean {
-    const { program } = this.recording.made;
-    return program !== undefined && !isSame(program, text);
+    const { made, how } = this.recording;
+    return made.program !== undefined && how !== "typed" && made.program !== text;
   }
 
   #begin(): void {

@@ -1,7 +1,8 @@
 /** The data kept from visit to visit, in the browser's own store. If that refuses, the user is told once, and the refused data
  * are kept until the page is left. */
-import type { Punched } from "./board.ts";
-import type { KeptTape } from "./recording.ts";
+import type { PunchedLine } from "./board.ts";
+import type { Origin } from "./identity.ts";
+import { type How, isHow, type KeptTape } from "./recording.ts";
 import type { Work } from "./works.ts";
 
 export interface Kept {
@@ -12,6 +13,8 @@ export interface Kept {
   paper: string;
   /** A text in the editor that is not in the machine. */
   draft?: string;
+  /** The work that is written, and the file that it came from. */
+  about?: { work?: string | undefined; origin?: Origin | undefined };
 }
 
 export type Theme = "auto" | "light" | "dark";
@@ -33,12 +36,16 @@ export interface Everything {
   kept: Kept | null;
   settings: Partial<Settings>;
   tape: string;
+  /** The tape was made in another way than by one RUN; the line of RUN n. */
+  how?: How;
+  from?: number;
+  works?: Work[];
 }
 
 /** Names of the browser's store. Each copy of the page has its own, by the folder that it lies in: two on one server share nothing. */
 const FOLDER = new URL(".", globalThis.location?.href ?? "http://localhost/").pathname;
 const PREFIX = `skg:${FOLDER}:`;
-const [MACHINE, SETTINGS, WORKS, OWNER, TAPE] = ["machine", "settings", "works", "owner", "tape"];
+const [MACHINE, SETTINGS, WORKS, OWNER, TAPE] = ["machine", "settings", "works", "owner", "tape"] as const;
 /** Before copies had names of their own; read, never written. */
 const COMMON = "skg.";
 
@@ -55,6 +62,11 @@ export class Store {
   /** The browser has refused something that is gone when the page is left. */
   get isRefused(): boolean {
     return this.#unkept.size > 0;
+  }
+
+  /** Programs are among that. */
+  get losesWorks(): boolean {
+    return this.#unkept.has(WORKS);
   }
 
   /** This tab has the machine that is kept. */
@@ -83,7 +95,12 @@ export class Store {
   /** The tape that was drawn last. */
   get tape(): KeptTape | null {
     const tape = this.#read<KeptTape>(TAPE);
-    return typeof tape?.made?.name === "string" && Array.isArray(tape.lines) && tape.lines.every(isPunched) ? tape : null;
+    return typeof tape?.made?.name === "string" &&
+      Array.isArray(tape.lines) &&
+      tape.lines.every(isPunched) &&
+      isHow(tape.how ?? "run")
+      ? tape
+      : null;
   }
 
   set tape(tape: KeptTape | null) {
@@ -145,8 +162,8 @@ export class Store {
   }
 }
 
-function isPunched(line: unknown): line is Punched {
-  const { text, line: number, x, y } = (line ?? {}) as Punched;
+function isPunched(line: unknown): line is PunchedLine {
+  const { text, line: number, x, y } = (line ?? {}) as PunchedLine;
   return typeof text === "string" && [number, x, y].every((each) => typeof each === "number");
 }
 
@@ -169,6 +186,8 @@ export function readEverything(text: string): Everything | undefined {
       found.version === 1 &&
       (found.kept === null || isKept(found.kept)) &&
       typeof found.settings === "object" &&
+      isHow(found.how ?? "run") &&
+      (found.works ?? []).every(isWork) &&
       typeof found.tape === "string";
     return isOne ? found : undefined;
   } catch {

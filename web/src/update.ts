@@ -12,7 +12,9 @@ export async function isUpdated(): Promise<void> {
     warn(t("newVersion"), {
       label: t("reload"),
       take: () => {
-        navigator.serviceWorker.addEventListener("controllerchange", () => location.reload(), { once: true });
+        // (another tab may have fetched it already: it is no longer waiting)
+        if (worker.state === "activated" || worker.state === "redundant") location.reload();
+        worker.addEventListener("statechange", () => location.reload(), { once: true });
         worker.postMessage("come");
       },
     });

@@ -3,6 +3,8 @@ import type { Punched } from "./board.ts";
 import { labelOf } from "./catalogue.ts";
 import { get } from "./dom.ts";
 import { Editor } from "./editor.ts";
+import { saveFile } from "./files.ts";
+import { nameFor, type Origin, originOf } from "./identity.ts";
 import { isWord, t, type Word } from "./language.ts";
 import { hide, say, show } from "./message.ts";
 import { parametersOf, showParameters, withValue } from "./parameters.ts";
@@ -11,7 +13,7 @@ import type { Maker } from "./recording.ts";
 import type { Session } from "./session.ts";
 import { withSigns } from "./signs.ts";
 import { Stage } from "./stage.ts";
-import { isSame, type Works } from "./works.ts";
+import type { Works } from "./works.ts";
 
 /** The editor's text is tried, and run where that is wanted, so long after the last key, ms. */
 const MOMENT = 500;
@@ -20,6 +22,8 @@ const SHORT = 80;
 
 export interface Surroundings {
   readonly works: Works;
+  /** The name of the part whose program this is, letter for letter. */
+  partOf(program: string): string | undefined;
   /** A change runs by itself. */
   isAuto(): boolean;
   /** The manual, at a chapter. */
@@ -34,8 +38,8 @@ export class Workbench {
   readonly #around: Surroundings;
   readonly #proof: Proof;
   session!: Session;
-  /** The program's name, for its files. */
-  name = "part";
+  /** The file that was opened, until another program takes its place. */
+  origin: Origin | undefined;
   #sent: string | undefined;
   #wait: ReturnType<typeof setTimeout> | undefined;
   /** The visitor has pressed RUN: who is asked for a number types it at the teletype. */
@@ -51,13 +55,25 @@ export class Workbench {
   }
 
   get isDirty(): boolean {
-    return !isSame(this.editor.text, this.session.program);
+    return this.editor.text !== this.session.program;
+  }
+
+  /** The name of what is seen, for its files. */
+  get name(): string {
+    return this.#nameOf(this.editor.text).name;
+  }
+
+  #nameOf(program: string): { name: string; isPart: boolean } {
+    return nameFor(program, this.#around.partOf(program), this.origin);
   }
 
   /** A run's error and its line, until the machine tells the program that has this line. */
   #fault: [string, number] | undefined;
 
-  #maker = (): Maker => ({ name: this.name, program: this.#sent ?? this.session.program });
+  #maker = (): Maker => {
+    const program = this.#sent ?? this.session.program;
+    return { ...this.#nameOf(program), program };
+  };
 
   punched(punched: readonly Punched[]): void {
     this.stage.pictures.isStale = this.isStale;
@@ -65,6 +81,9 @@ export class Workbench {
       this.stage.pictures.isStale = this.isStale;
       this.editor.marks = [];
     });
+    const program = this.stage.recording.takeProgram();
+    const take = (): void => saveFile(`${this.name}.skg`, program ?? "");
+    if (program) show(t("punchedProgram"), { label: t("saveSkg"), take });
   }
 
   /** The drawing was made by another program than the one in the editor. */
@@ -77,18 +96,19 @@ export class Workbench {
     // (in the middle of a long LOAD it has a part of it alone)
     if (this.#sent !== undefined && !hasLinesOf(program, this.#sent) && this.session.isRunning) return;
     this.stage.tell(program);
-    const isSent = this.#sent !== undefined && isSame(this.#sent, this.editor.text);
-    if (isSent ? hasLinesOf(program, this.editor.text) : isSame(before, this.editor.text)) this.editor.text = program;
+    const isSent = this.#sent === this.editor.text;
+    if (isSent ? hasLinesOf(program, this.editor.text) : before === this.editor.text) this.editor.text = program;
     this.#sent = undefined;
     if (this.#fault && !this.isDirty) this.#proof.ended(...this.#fault);
     this.#fault = undefined;
     this.#around.works.keep(program);
-    if (!program) this.name = "part"; // (NEW at the teletype)
+    if (!program) this.origin = undefined; // (NEW at the teletype)
     this.refresh();
   }
 
   refresh(): void {
     this.session.draft = this.isDirty ? this.editor.text : undefined;
+    this.session.about = { work: this.#around.works.present, origin: this.origin };
     get("revert").hidden = !this.isDirty;
     const parameters = parametersOf(this.editor.text).map((each) => ({ ...each, label: labelOf(each.label) }));
     showParameters(get("parameters"), parameters, (at, value) => this.#set(at, value));
@@ -155,16 +175,16 @@ export class Workbench {
     this.session.load(this.#sent, run);
   }
 
-  /** Puts another program in the place of what is there, which is kept; one with faults stays a text. */
-  async open(name: string, text: string, run: boolean, isSound = false): Promise<void> {
+  /** Puts another program in the place of what is there, which is kept; one with faults stays a text. `file`: its file's name. */
+  async open(text: string, { run = false, isSound = false, file = "" } = {}): Promise<void> {
     clearTimeout(this.#wait);
     const { works } = this.#around;
     this.keepText();
     works.begin();
     hide();
-    this.name = name.replace(/\.\w+$/, "").replace(/[^\p{L}\p{N}_-]+/gu, "-") || "part";
     this.isByHand = run;
     this.editor.text = withSigns(text);
+    this.origin = file ? originOf(file, this.editor.text) : undefined;
     this.editor.marks = [];
     this.stage.clear(this.#maker(), this.session.isRunning);
     if (!this.session.isAlive) {
@@ -206,7 +226,7 @@ export class Workbench {
 /** The machine's program has all the lines of a text. */
 function hasLinesOf(program: string, text: string): boolean {
   const numbers = (lines: string): string[] =>
-    [...lines.matchAll(/^\s*(\d+)[ \t]*\S/gm)].map(([, number]) => String(Number(number)));
+    [...lines.matchAll(/^\s*(\d+)[ \t]*[^\s\d]/gm)].map(([, number]) => String(Number(number)));
   const there = new Set(numbers(program));
   return numbers(text).every((number) => there.has(number));
 }

@@ -1,7 +1,8 @@
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
-import { ascii, Board, bytesOf, type Punched, readNames } from "../src/board.ts";
+import { ascii, Board, bytesOf, type PunchedLine, type PunchMark, readNames } from "../src/board.ts";
+import { Recording } from "../src/recording.ts";
 
 const SYM = readFileSync("roms/skg.sym", "latin1");
 
@@ -26,19 +27,28 @@ function type(board: Board, line: string): string {
   return untilPrompt(board);
 }
 
-/** Loads and runs a program; what was punched, without the line that says that a run begins. */
-function run(board: Board, program: string): Punched[] {
+/** The marks and the lines that the punch has given since. */
+function punched(board: Board): { marks: PunchMark[]; lines: PunchedLine[] } {
+  const all = board.takePunched();
+  return { marks: all.filter((each) => "mark" in each), lines: all.filter((each) => "text" in each) };
+}
+
+/** Loads and runs a program; what was punched. */
+function run(board: Board, program: string): PunchedLine[] {
   type(board, "NEW");
   board.tape(bytesOf(program));
   type(board, "LOAD");
   board.takePunched();
   type(board, "RUN");
-  const punched = board.takePunched();
-  assert.equal(punched[0]?.text, "RUN");
-  return punched.filter((line) => line.text !== "RUN");
+  const { marks, lines } = punched(board);
+  assert.deepEqual(marks, [
+    { mark: "run", from: 0 },
+    { mark: "prompt", from: 0 },
+  ]);
+  return lines;
 }
 
-const text = (punched: readonly Punched[]): string => punched.map((line) => `${line.text}\r\n`).join("");
+const text = (punched: readonly PunchedLine[]): string => punched.map((line) => `${line.text}\r\n`).join("");
 
 test("every example's tape, byte for byte", async () => {
   const board = await started();
@@ -95,15 +105,17 @@ test("after an error, and by a direct statement", async () => {
   const board = await started();
   run(board, "10 CUT X,Y:10\n20 CUT (50,50):1\n30 END\n");
   board.takePunched();
-  const punched = run(board, "10 FROM (5,5)\n20 CUT (20,5):2\n30 BACK\n40 END\n");
+  const again = run(board, "10 FROM (5,5)\n20 CUT (20,5):2\n30 BACK\n40 END\n");
   assert.deepEqual(
-    punched.map(({ line }) => line),
+    again.map(({ line }) => line),
     [20, 20, 30, 40],
   );
   type(board, "FROM (0,0)");
   type(board, "CUT (10,0):1");
   type(board, "BACK");
-  assert.ok(board.takePunched().every(({ line }) => line === 0));
+  const typed = punched(board);
+  assert.ok(typed.lines.length > 2 && typed.lines.every(({ line }) => line === 0));
+  assert.ok(typed.marks.every(({ mark }) => mark === "prompt"));
 });
 
 test("the memory: a reset keeps program and variables, LIST on the second board disturbs nothing", async () => {
@@ -130,10 +142,12 @@ test("a line with RUN that is only looked at begins no tape", async () => {
   run(board, "10 CUT O,(5,0)\n");
   for (const line of ["10 RUN", "RUN,", "RUN 1.5.5"]) {
     assert.match(type(board, line), /ERR 01/, line);
-    assert.deepEqual(board.takePunched(), [], line);
+    assert.deepEqual(board.takePunched(), [{ mark: "prompt", from: 0 }], line);
   }
+  assert.match(type(board, "RUN 20"), /ERR 02/);
+  assert.deepEqual(board.takePunched(), [{ mark: "prompt", from: 0 }], "a line that is not there begins nothing");
   type(board, "RUN 10");
-  assert.equal(board.takePunched()[0]?.text, "RUN");
+  assert.deepEqual(punched(board).marks[0], { mark: "run", from: 10 });
 });
 
 test("a line on the punch that is not whole yet waits", async () => {
@@ -146,16 +160,78 @@ test("a line on the punch that is not whole yet waits", async () => {
   const found: string[] = [];
   for (let turns = 0; turns < 5000 && found.at(-1) !== "DD"; turns++) {
     board.run(30_000);
-    found.push(...board.takePunched().map((line) => line.text));
+    found.push(...punched(board).lines.map((line) => line.text));
   }
-  assert.equal(found[0], "RUN");
-  assert.deepEqual(
-    found.filter((line) => line !== "RUN"),
-    ["B15000B0B15000GXL1", "B5000B0B20000GYNR3", "B15000B0B15000GXL3", "DD"],
-  );
+  assert.deepEqual(found, ["B15000B0B15000GXL1", "B5000B0B20000GYNR3", "B15000B0B15000GXL3", "DD"]);
   assert.ok(board.cycles > 2_000_000 * 5, "110 baud takes its time");
 });
 
 test("names that are not in skg.sym are said", () => {
   assert.throws(() => readNames(SYM.replace(/^.* CURLIN.*$/m, "")), /CURLIN/);
+});
+
+test("one recording a RUN: the half block of a reset, and what is typed at the prompt, are in no program's tape", async () => {
+  const board = await started();
+  const recording = new Recording();
+  const made = { name: "wrench", program: "" };
+  let begun = 0;
+  const take = (): void =>
+    void recording.take(
+      board.takePunched(),
+      () => made,
+      () => begun++,
+    );
+  const tape = readFileSync("examples/wrench.3b", "latin1");
+  type(board, "NEW");
+  board.tape(readFileSync("examples/wrench.skg"));
+  type(board, "LOAD");
+  take();
+  assert.equal(begun, 0);
+
+  // the reset button in the middle of a block, with the punch at its own pace
+  board.baud(110);
+  board.type(bytesOf("RUN\r"));
+  for (let turns = 0; turns < 200_000 && recording.layout.blocks.length < 3; turns++) {
+    board.run(10_000);
+    take();
+  }
+  board.run(2_000_000); // (ten characters more)
+  board.reset();
+  board.baud(0);
+  untilPrompt(board);
+  take();
+  const [, ...rest] = tape.split("\r\n");
+  assert.ok(recording.layout.blocks.length >= 3 && recording.layout.blocks.length < rest.length);
+  assert.equal(recording.text, tape.slice(0, recording.text.length), "whole blocks alone");
+  assert.equal(recording.isWhole, false);
+  type(board, "RUN");
+  take();
+  assert.deepEqual([recording.text, recording.how, recording.isWhole], [tape, "run", true]);
+
+  // SAVE leaves it alone, and is a program
+  type(board, "SAVE");
+  take();
+  assert.equal(recording.takeProgram(), board.list(board.save()));
+  assert.equal(recording.takeProgram(), undefined);
+  assert.equal(recording.text, tape);
+
+  // typed statements behind a whole tape make another one, whatever program lines they go to
+  for (const line of ["GOTO 170", "FROM (5,5)", "END"]) {
+    type(board, line);
+    take();
+    assert.equal(recording.how, "typed", line);
+  }
+  type(board, "RUN 170");
+  take();
+  assert.deepEqual([recording.how, recording.from], ["part", 170]);
+
+  // behind one without its end they go on
+  type(board, "172 CUT X,X:1");
+  type(board, "RUN");
+  take();
+  assert.deepEqual([recording.how, recording.isWhole], ["run", false]);
+  const broken = recording.text;
+  type(board, "END");
+  take();
+  assert.deepEqual([recording.how, recording.isWhole, recording.text], ["mixed", true, `${broken}DD\r\n`]);
 });

@@ -892,7 +892,7 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
     await page.keyboard.press("Shift+End");
     await page.keyboard.type("50 CUT X:7.5#I*60");
     await says(page, "#sum", /^29 blocks · 4[89]\d\.\d mm$/);
-    await says(page, "#made", "Wrench");
+    await says(page, "#made", /^A wrench: hexagon/);
     assert.equal(await page.evaluate(() => document.activeElement?.id), "text", "who types goes on typing");
     await context.close();
   });
@@ -1031,7 +1031,7 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
     await active(page, 2);
     await page.click("#manual");
     await page.frameLocator("#manual-frame").locator(".try a").first().click();
-    await says(page, "#made", "from a link");
+    await says(page, "#made", "A PLATE WITH A HOLE");
     await wholeTape(page);
     assert.ok(await page.isVisible("#manual-frame"));
     assert.deepEqual(said, []);
@@ -1050,7 +1050,7 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
     await says(page, "#walked", /^block/);
     await page.click("#manual");
     await page.frameLocator("#manual-frame").locator(".try a").first().click();
-    await says(page, "#made", "from a link");
+    await says(page, "#made", "A PLATE WITH A HOLE");
     await wholeTape(page);
     assert.deepEqual(said, []);
     await context.close();
@@ -1068,7 +1068,7 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
     for (let more = 0; more < 4; more++) await page.keyboard.press("ArrowRight");
     await page.waitForFunction(() => /50 I1=20/.test(document.querySelector(".cm-content")?.textContent ?? ""));
     await wholeTape(page, 603); // (as the gear of 20 teeth in the field below)
-    await says(page, "#made", "Spur gear");
+    await says(page, "#made", /^An involute spur gear to set/);
     assert.equal(await page.evaluate(() => (document.activeElement as HTMLInputElement).type), "range");
     assert.match(await saved(page, "skg"), /^50 I1=20$/m);
     assert.deepEqual(said, []);

@@ -79,6 +79,7 @@ test("a part is the same, byte for byte, when the board is stopped a thousand ti
       break;
     }
   }
-  const tape = punched.map(({ text }) => `${text}\r\n`).join("");
-  assert.equal(tape, `RUN\r\n${readFileSync("examples/wrench.3b", "latin1")}`);
+  assert.ok("mark" in (punched[0] ?? {}), "RUN");
+  const tape = punched.map((each) => ("text" in each ? `${each.text}\r\n` : "")).join("");
+  assert.equal(tape, readFileSync("examples/wrench.3b", "latin1"));
 });

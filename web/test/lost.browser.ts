@@ -15,6 +15,7 @@ import {
   open,
   prompt,
   runPart,
+  saved,
   says,
   served,
   visit,
@@ -50,6 +51,44 @@ const inWorks = (page: Page, name: string) =>
 describe("nothing is lost", { skip: existsSync(CHROMIUM) ? false : "chromium is not installed", timeout: WHOLE }, () => {
   before(begin);
   after(end);
+
+  test("a tape that one RUN did not make is called what it is, and asks before it is saved; SAVE takes nothing away", async () => {
+    const { page, context, said } = await visit();
+    await runPart(page, "wrench");
+    const tape = readFileSync("examples/wrench.3b", "latin1");
+    await page.click("#terminal");
+    await page.keyboard.type("SAVE\r");
+    await message(page, /SAVE has punched/);
+    const [program] = await Promise.all([page.waitForEvent("download"), page.click("#offer")]);
+    assert.equal(readFileSync(await program.path(), "latin1"), readFileSync("examples/wrench.skg", "latin1"));
+    assert.equal(await saved(page, "3b"), tape);
+    for (const [typed, made, name, question] of [
+      ["GOTO 170", /typed at the teletype/, "-typed.3b", /Statements typed/],
+      ["RUN 20", /RUN 20/, "-from-20.3b", /RUN 20 made/],
+    ] as const) {
+      await page.click("#terminal");
+      await page.keyboard.type(`${typed}\r`);
+      await says(page, "#made", made);
+      await wholeTape(page);
+      await page.locator("details.menu summary").first().click();
+      await page.click('[data-save="3b"]');
+      await says(page, "#question-text", question);
+      const [download] = await Promise.all([page.waitForEvent("download"), page.click("#question-yes")]);
+      assert.ok(download.suggestedFilename().endsWith(name), download.suggestedFilename());
+      // (it is called so after a reload, too)
+      await page.reload();
+      await page.waitForSelector("body[data-ready]");
+      await says(page, "#made", made);
+      await prompt(page);
+    }
+    await page.click("#run");
+    await says(page, "#made", "Wrench");
+    await wholeTape(page, 29);
+    await prompt(page);
+    assert.equal(await saved(page, "3b"), tape);
+    assert.deepEqual(said, []);
+    await context.close();
+  });
 
   test("a program with Windows line ends, tabs, wide signs of a Chinese keyboard", async () => {
     const { page, context, said } = await visit();
@@ -185,8 +224,7 @@ describe("nothing is lost", { skip: existsSync(CHROMIUM) ? false : "chromium is 
       await inWorks(page, "MINE ALONE");
       assert.ok(await page.isVisible("#message"), "what is at stake is not hidden by the next thing done");
       await page.click("#dismiss");
-      await page.locator(".work button").first().click();
-      await hasLines(page, ["10 REM MINE ALONE", "20 I=1"]);
+      // (also while an example is seen)
       const asked = page.waitForEvent("dialog");
       await page.close({ runBeforeUnload: true });
       const dialog = await asked;
@@ -222,6 +260,70 @@ describe("nothing is lost", { skip: existsSync(CHROMIUM) ? false : "chromium is 
     await again.waitForSelector("body[data-ready]");
     await hasLines(again, ["10 REM FIRST TAB", "20 FRAM O30 HAL"]);
     await context.close();
+  });
+
+  test("one identity: a blank is an edit, a program has its own name, what is deleted comes back, and all of it is in one file", async () => {
+    const { page, context, said } = await visit();
+    await runPart(page, "wrench");
+    const text = (...rows: string[]) => rows.join("\n");
+    await write(page, text("10 REM HELLOWORLD", "20 CUT O,(5,0)", "30 END"));
+    await page.keyboard.press("Control+Enter");
+    await says(page, "#made", "HELLOWORLD");
+    await wholeTape(page, 1);
+    await prompt(page);
+    // its file is called after it, not after the part that was there
+    await page.locator("details.menu summary").first().click();
+    const [tape] = await Promise.all([page.waitForEvent("download"), page.click('[data-save="3b"]')]);
+    assert.equal(tape.suggestedFilename(), "helloworld.3b");
+    // a blank more is an edit, also after a reload
+    await page.click("#lines .cm-line:nth-child(1)");
+    await page.keyboard.press("End");
+    for (let left = 0; left < 5; left++) await page.keyboard.press("ArrowLeft");
+    await page.keyboard.type(" ");
+    await isKept(page, "HELLO WORLD");
+    await page.reload();
+    await page.waitForSelector("body[data-ready]");
+    await says(page, "#lines .cm-line:nth-child(1)", "10 REM HELLO WORLD");
+    await prompt(page);
+    await page.click("#lines .cm-line:nth-child(3)");
+    await page.keyboard.press("End");
+    // (RETURN numbers a line; one that is still empty is no false alarm)
+    await page.keyboard.type("\n");
+    await says(page, "#lines .cm-line:nth-child(4)", "40 ");
+    await page.keyboard.press("Control+Enter");
+    await hasLines(page, ["10 REM HELLO WORLD", "20 CUT O,(5,0)", "30 END"]);
+    assert.equal(await page.isVisible("#message"), false);
+    await inWorks(page, "HELLO WORLD");
+    assert.deepEqual(await works(page), ["HELLO WORLD", "HELLOWORLD"], "another title is another program");
+    // a kept one that is opened and changed stays as it was
+    await page.locator(".work button", { hasText: "HELLOWORLD" }).first().click();
+    await hasLines(page, ["10 REM HELLOWORLD", "20 CUT O,(5,0)", "30 END"]);
+    await prompt(page);
+    await page.click("#terminal");
+    await page.keyboard.type("25 CUT (5,5)\r");
+    await page.waitForFunction(() => document.querySelectorAll(".work").length === 3);
+    await page.locator(".work button", { hasText: "HELLOWORLD" }).nth(1).click();
+    await hasLines(page, ["10 REM HELLOWORLD", "20 CUT O,(5,0)", "30 END"]);
+    await prompt(page);
+    // deleted, and back
+    await page.locator(".work", { hasText: "HELLO WORLD" }).locator(".bin").click();
+    await message(page, /HELLO WORLD is deleted/);
+    await page.waitForFunction(() => document.querySelectorAll(".work").length === 2);
+    await page.click("#offer");
+    await inWorks(page, "HELLO WORLD");
+    const all = await saved(page, "json");
+    assert.deepEqual(said, []);
+    await context.close();
+
+    const other = await visit();
+    await wholeTape(other.page);
+    await open(other.page, "all.json", all);
+    await inWorks(other.page, "HELLO WORLD");
+    assert.deepEqual((await works(other.page)).sort(), ["HELLO WORLD", "HELLOWORLD", "HELLOWORLD"]);
+    await open(other.page, "all.json", all);
+    await message(other.page, /all\.json/);
+    assert.equal((await works(other.page)).length, 3, "none is there twice");
+    await other.context.close();
   });
 
   test("an example is none of one's own programs, however late the list comes", async () => {
@@ -288,8 +390,21 @@ describe("nothing is lost", { skip: existsSync(CHROMIUM) ? false : "chromium is 
     served.changed.set("offline.js", next);
     await page.evaluate(async () => void (await (await navigator.serviceWorker.getRegistration())?.update()));
     await message(page, /new version/);
+    // (two tabs say so: each of them gets it at a click)
+    const second = await context.newPage();
+    await second.goto(served.url);
+    await message(second, /new version/);
+    await message(page, /another tab/);
+    await page.click("#dismiss");
+    await message(page, /new version/);
     await Promise.all([page.waitForEvent("load"), page.click("#offer")]);
     await page.waitForSelector("body[data-ready]");
+    await message(second, /another tab/);
+    await second.click("#dismiss");
+    await message(second, /new version/);
+    await Promise.all([second.waitForEvent("load"), second.click("#offer")]);
+    await second.waitForSelector("body[data-ready]");
+    await second.close();
     assert.deepEqual(await names(), ["skg:/some/folder/:0123456789ab"]);
     await wholeTape(page);
     served.changed.clear();

@@ -7,8 +7,9 @@
  * Both come from the firmware's cells and labels (page_names): at `element` an element of the route becomes the present
  * one, and the running line is its line; while the wire goes along it (from `along` until that returns), output of the
  * punch belongs to that line. All other output - the way from the start hole and back, from hole to hole, D, DD -
- * belongs to the running line. Line 0: a direct statement. At `run` a run begins: the punch gets a line RUN, which is
- * not the firmware's, and a new tape follows.
+ * belongs to the running line. Line 0: a direct statement. Beside the punched bytes stand marks, each at its place
+ * between two of them: at `run` a run begins, at `ready` the board comes to its prompt, at `save` it gives its program
+ * to the punch, and the reset button is one.
  *
  * The page's debugger stops at addresses of machine code or byte-code (page_stop_at), and goes on step by step
  * (page_step).
@@ -28,14 +29,18 @@ typedef struct {
     size_t length, size;
 } record;
 
-/* The program line that made a line on the punch, and the wire's position behind it (um). */
+/* The things beside the punched bytes: what begins there, in the order of NOTES in board.ts */
+enum { A_LINE, A_RUN, A_PROMPT, A_SAVE, A_RESET };
+
+/* A note beside the punched bytes: its place among them, what it is, the program line that made a line on the punch
+ * (or at which a run begins, 0: the first one), and the wire's position behind it (um). */
 typedef struct {
-    double line, x, y;
-} maker;
+    double at, what, line, x, y;
+} note;
 
 static struct held {
     board *board;
-    record paper, punch, makers;
+    record paper, punch, notes;
     bool punching;              /* in the middle of a line of the punch */
     uint16_t element_line;      /* of the present element of the route */
     bool along;                 /* the wire goes along it */
@@ -46,7 +51,7 @@ static struct held {
 static record buffer;           /* bytes for the next call */
 
 static struct {
-    uint16_t current, direct, element, along, run, wire, operation;
+    uint16_t current, direct, element, along, run, ready, save, wire, operation;
 } names;
 
 static bool room(record *r, size_t length)
@@ -103,8 +108,8 @@ static uint16_t running_line(const struct held *h)
 /* Tells whether the board stops at an address, for the page or for its debugger. */
 static bool is_marked(const struct held *h, uint16_t address)
 {
-    return address == names.element || address == names.along || address == names.run
-           || (h->along && address == h->back) || breaks_has(&h->stops, address)
+    return address == names.element || address == names.along || address == names.run || address == names.ready
+           || address == names.save || (h->along && address == h->back) || breaks_has(&h->stops, address)
            || (h->stops.count && address == names.operation);
 }
 
@@ -123,14 +128,24 @@ static void print(void *user, uint8_t byte)
 static void punch(void *user, uint8_t byte)
 {
     struct held *h = user;
-    keep(&h->punch, &byte, 1);
     if (!h->punching && byte >= ' ') {
-        maker m = { .line = h->along ? h->element_line : running_line(h),
-                    .x = float_at(h, names.wire),
-                    .y = float_at(h, (uint16_t)(names.wire + FLOAT)) };
-        keep(&h->makers, &m, sizeof m);
+        note n = { .at = (double)h->punch.length,
+                   .what = A_LINE,
+                   .line = h->along ? h->element_line : running_line(h),
+                   .x = float_at(h, names.wire),
+                   .y = float_at(h, (uint16_t)(names.wire + FLOAT)) };
+        keep(&h->notes, &n, sizeof n);
     }
+    keep(&h->punch, &byte, 1);
     h->punching = byte >= ' ';
+}
+
+/* A mark; a line that is not whole in front of it ends there. */
+static void mark(struct held *h, int what, uint16_t line)
+{
+    note n = { .at = (double)h->punch.length, .what = what, .line = line };
+    keep(&h->notes, &n, sizeof n);
+    h->punching = false;
 }
 
 /* ---- called by board.ts ---- */
@@ -142,17 +157,20 @@ EXPORT(page_buffer) uint8_t *page_buffer(uint32_t length)
     return room(&buffer, length) ? buffer.bytes : NULL;
 }
 
-/* Addresses: cell of the running line; cell whose high byte is 0 for a direct statement; the three labels; the first of
- * two floats, the wire's position; the label at which the calculator takes its next operation, the byte at BC. */
+/* Addresses: cell of the running line; cell whose high byte is 0 for a direct statement; the five labels (at `run` DE is
+ * the line at which the run begins, or 0); the first of two floats, the wire's position; the label at which the
+ * calculator takes its next operation, the byte at BC. */
 EXPORT(page_names)
-void page_names(uint32_t current, uint32_t direct, uint32_t element, uint32_t along, uint32_t run, uint32_t wire,
-                uint32_t operation)
+void page_names(uint32_t current, uint32_t direct, uint32_t element, uint32_t along, uint32_t run, uint32_t ready,
+                uint32_t save, uint32_t wire, uint32_t operation)
 {
     names.current = (uint16_t)current;
     names.direct = (uint16_t)direct;
     names.element = (uint16_t)element;
     names.along = (uint16_t)along;
     names.run = (uint16_t)run;
+    names.ready = (uint16_t)ready;
+    names.save = (uint16_t)save;
     names.wire = (uint16_t)wire;
     names.operation = (uint16_t)operation;
 }
@@ -170,15 +188,17 @@ EXPORT(page_board) bool page_board(uint32_t which, uint32_t length)
     h->board->punch = punch;
     h->board->user = h;
     board_rom(h->board, buffer.bytes, length);
-    i8080_break(&h->board->cpu, names.element, true);
-    i8080_break(&h->board->cpu, names.along, true);
-    i8080_break(&h->board->cpu, names.run, true);
+    const uint16_t followed[] = { names.element, names.along, names.run, names.ready, names.save };
+    for (unsigned i = 0; i < sizeof followed / sizeof *followed; i++) {
+        i8080_break(&h->board->cpu, followed[i], true);
+    }
     return true;
 }
 
 EXPORT(page_reset) void page_reset(uint32_t which)
 {
     boards[which].along = false;
+    mark(&boards[which], A_RESET, 0);
     board_reset(boards[which].board);
 }
 
@@ -227,7 +247,8 @@ EXPORT(page_cycles) double page_cycles(uint32_t which)
     return (double)boards[which].board->cpu.cycles;
 }
 
-/* Follows the firmware at its labels: the present element changes, the way along it begins or ends. */
+/* Follows the firmware at its labels: a run begins or is over, a program goes out, the present element changes, the way
+ * along it begins or ends. */
 static void follow(struct held *h)
 {
     i8080 *c = &h->board->cpu;
@@ -237,9 +258,11 @@ static void follow(struct held *h)
     }
     if (c->pc == names.run) {
         h->along = false;
-        for (const char *at = "RUN\n"; *at; at++) {
-            punch(h, (uint8_t)*at);
-        }
+        mark(h, A_RUN, c->de);
+    } else if (c->pc == names.ready) {
+        mark(h, A_PROMPT, 0);
+    } else if (c->pc == names.save) {
+        mark(h, A_SAVE, 0);
     } else if (c->pc == names.element) {
         h->element_line = running_line(h);
         h->along = false; /* (an error may have left it true) */
@@ -342,7 +365,7 @@ static uint8_t *taken(record *r)
     return r->bytes;
 }
 
-/* The length of the paper, of the punched tape and of its makers; then their bytes, which are dropped here. */
+/* The length of the paper, of the punched tape and of the notes beside it; then their bytes, which are dropped here. */
 EXPORT(page_printed) uint32_t page_printed(uint32_t which)
 {
     return boards[which].paper.length;
@@ -359,13 +382,13 @@ EXPORT(page_take_punch) uint8_t *page_take_punch(uint32_t which)
 {
     return taken(&boards[which].punch);
 }
-EXPORT(page_made) uint32_t page_made(uint32_t which)
+EXPORT(page_noted) uint32_t page_noted(uint32_t which)
 {
-    return boards[which].makers.length;
+    return boards[which].notes.length;
 }
-EXPORT(page_take_makers) uint8_t *page_take_makers(uint32_t which)
+EXPORT(page_take_notes) uint8_t *page_take_notes(uint32_t which)
 {
-    return taken(&boards[which].makers);
+    return taken(&boards[which].notes);
 }
 
 /* The RAM into the buffer, and the buffer into the RAM (RAM_KIB). */
