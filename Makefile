@@ -62,7 +62,9 @@ include release/release.mk
 venv: $(VENV)/.stamp
 $(VENV)/.stamp: tools/pyproject.toml tools/constraints.txt tools/setup.py | emu tools
 	$(PYTHON) -m venv --clear $(VENV)
-	$(PY) -m pip install -q --disable-pip-version-check -c tools/constraints.txt -e 'tools[test]'
+	@echo "pip fetches the versions of tools/constraints.txt"
+	@$(PY) -m pip install -q --disable-pip-version-check -c tools/constraints.txt -e 'tools[test]' || { echo \
+		"make venv: pip had no success. It needs the network, or the wheels in a folder: PIP_NO_INDEX=1 PIP_FIND_LINKS=FOLDER make venv" >&2; exit 1; }
 	touch $@
 
 # The images are committed: who changes a source of theirs is told until they are built.

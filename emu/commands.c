@@ -224,6 +224,8 @@ static void do_code(debug *d, const words *w)
     if (!w->first && !trace_at_operation(c, d->calculator)) {
         fputs("the calculator is not at an operation: code PLACE\n", stderr);
     } else if (get_address(d, w->first, c->bc, &address) && get_number(w->second, LONGEST, &count)) {
+        /* (a routine that begins with DB CALC: its byte-code stands behind the restart) */
+        address += !*d->calculator->code[RST_CALC] && i8080_peek(c, address) == RST_CALC;
         calculator_print_code(d->calculator, c, address, count > LONGEST ? LONGEST : (unsigned)count, stderr);
     }
 }

@@ -82,6 +82,13 @@ def test_byte_code_reads_as_in_the_sources(nothing: Path) -> None:
     assert compared > 1200 and jumped == len(jumps) > 50
 
 
+def test_byte_code_behind_a_routines_name(nothing: Path) -> None:
+    """A routine that begins with DB CALC: its name asks for what stands behind the restart."""
+    by_name, behind = debugged(nothing, "code FILLET 5", f"code {labels()['FILLET'] + 1:X} 5")
+    assert by_name == behind
+    assert by_name.split()[1:3] == ["FILLET+1", "QPTOK"]
+
+
 def address(names: dict[str, int], place: str) -> int:
     """LABEL or LABEL+distance."""
     label, _, distance = place.partition("+")

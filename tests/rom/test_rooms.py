@@ -101,14 +101,14 @@ def test_no_file_asks_which_image_it_is_in() -> None:
 
 def test_a_board_of_ones_own_changes_no_header(monkeypatch: pytest.MonkeyPatch) -> None:
     """Files of its own fill the seam of the ports: the headers of those that call them stay as they are."""
-    own = {"ports_2sio": "ports_mine", "io_6850": "io_mine", "io_held": "teletype_mine", "io_tape": "tape_mine"}
-    images = {**build.IMAGES, "skg-mine": build.Image(ports=tuple(own.values()))}
+    own = {"ports_2sio": "ports_tried", "io_6850": "io_tried", "io_held": "paper_tried", "io_tape": "tape_tried"}
+    images = {**build.IMAGES, "skg-tried": build.Image(ports=tuple(own.values()))}
     monkeypatch.setattr(rooms, "SEAMS", rooms.seams(images))
     texts = {own.get(name, name): text for name, text in build.sources(build.IMAGES["skg"]).items()}
-    mine = rooms.read(texts)
-    assert set(own.values()) < set(mine)
-    assert "io_mine" in mine["start"].uses
-    wrong = rooms.wrong_headers(rooms.merged({**every(), "skg-mine": mine}), rooms.SEAMS)
+    tried = rooms.read(texts)
+    assert set(own.values()) < set(tried)
+    assert "io_tried" in tried["start"].uses
+    wrong = rooms.wrong_headers(rooms.merged({**every(), "skg-tried": tried}), rooms.SEAMS)
     assert [line for line in wrong if line.split(".")[0] not in own.values()] == []
 
 

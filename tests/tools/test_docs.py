@@ -13,6 +13,7 @@ from pathlib import Path
 import drawings
 import ezdxf
 import pytest
+from click import Option
 
 import skg
 
@@ -87,6 +88,18 @@ def test_every_option_is_explained() -> None:
         assert command.help, name
         for parameter in command.params:
             assert getattr(parameter, "help", "argument"), (name, parameter.name)
+
+
+def test_every_option_stands_on_the_page() -> None:
+    """By one of its names."""
+    from skg.cli import COMMANDS, cli
+
+    page = set(re.findall(r"(?<![\w-])--?[a-z][\w-]*", PAGE.read_text()))
+    options = [
+        (name, one) for name in COMMANDS for one in cli.get_command(None, name).params if isinstance(one, Option)
+    ]
+    assert len(options) > 100
+    assert [(name, one.name) for name, one in options if not page & {*one.opts, *one.secondary_opts}] == []
 
 
 def test_python() -> None:

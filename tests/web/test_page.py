@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -150,6 +151,12 @@ def near(one: object, other: object) -> bool:
     return abs(one - other) < 2.1e-6 if isinstance(one, float) else one == other
 
 
+def failures(report: str) -> str:
+    """What failed in a TAP report of node: each test's name, and its error."""
+    failed = re.findall(r"^(?: *not ok .*\n)(?:(?! *(?:not )?ok |# ).*\n)*", report, re.M)
+    return "".join(failed)[-6000:] or report[-6000:]
+
+
 def test_units_in_node(tmp_path: Path) -> None:
     """The tests of web/test in node; then the drawings that they wrote are compared with those of `skg dxf`."""
     (tmp_path / "golden.json").write_text(json.dumps({name: golden(name) for name in TAPES}))
@@ -168,8 +175,8 @@ def test_units_in_node(tmp_path: Path) -> None:
         "--out-extension:.js=.mjs",
     )
     assert built.returncode == 0, built.stderr
-    done = run("node", "--test", *sorted(tmp_path.glob("*.mjs")), PAGE_TEST=str(tmp_path))
-    assert done.returncode == 0, done.stdout[-6000:]
+    done = run("node", "--test", "--test-reporter=tap", *sorted(tmp_path.glob("*.mjs")), PAGE_TEST=str(tmp_path))
+    assert done.returncode == 0, failures(done.stdout)
     for name, tape in TAPES.items():
         drawing = ezdxf.readfile(tmp_path / f"{name}.dxf")
         assert not drawing.audit().errors

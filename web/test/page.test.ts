@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
+import { CATALOGUE } from "../src/catalogue.ts";
 import { recognize, tooLarge } from "../src/files.ts";
 import { isWord, preferred, t } from "../src/language.ts";
 import { LinkError, pack, readLink, unpack } from "../src/link.ts";
@@ -162,6 +163,14 @@ test("a typed line with a character that the machine has not is dropped, and wha
 test("a link without a program is none", async () => {
   await assert.rejects(unpack(await pack(" \n")), LinkError);
   assert.deepEqual(await readLink("#part="), { run: false, embed: false });
+});
+
+test("every part of examples/ has one place in the catalogue", () => {
+  const files = readdirSync("examples");
+  const programs = files.map((file) => /^(.+)\.(?:skg|xy|tkh)$/.exec(file)?.[1]);
+  const parts = new Set(programs.filter((name) => name && files.includes(`${name}.3b`)));
+  const listed = CATALOGUE.flatMap((group) => group.parts.map(({ name }) => name)).sort();
+  assert.deepEqual(listed, [...parts].sort());
 });
 
 test("beside Chinese words stands Chinese punctuation", () => {
