@@ -376,20 +376,33 @@ def test_port_that_is_taken(begin: Callable, tmp_path: Path) -> None:
     assert done.returncode == 2 and f"port {port}" in done.stderr and done.stderr.count("\n") == 1
 
 
+@pytest.mark.skipif(sys.platform in ("win32", "darwin"), reason="the browser is not given its address as a word there")
 def test_browser_is_opened(tmp_path: Path) -> None:
-    """With the address that is printed."""
-    program = tmp_path / "browser"
-    program.write_text(f'#!/bin/sh\necho "$1" > {tmp_path}/address\n')
+    """With a file that leads to the page: nobody else can read it, its name tells nothing, and it goes when the page is
+    there."""
+    program, home = tmp_path / "browser", tmp_path / "home"
+    home.mkdir()
+    program.write_text(f'#!/bin/sh\necho "$1" > {tmp_path}/new && mv {tmp_path}/new {tmp_path}/address\n')
     program.chmod(0o755)
+    left = home / "skg-ui-abcdefgh.html"
+    left.touch()
+    os.utime(left, (0, 0))
     process = subprocess.Popen(
         [SKG, "ui"],
         stdout=subprocess.PIPE,
         text=True,
-        env=os.environ | {"BROWSER": str(program)},
+        env=os.environ | {"BROWSER": str(program), "HOME": str(home)},
         preexec_fn=_heed_interrupts,
     )
-    url = process.stdout.readline().strip()
-    until(lambda: (tmp_path / "address").exists() and (tmp_path / "address").read_text().strip() == url)
+    page = Shell(process.stdout.readline().strip())
+    until((tmp_path / "address").exists)
+    address = (tmp_path / "address").read_text().strip()
+    assert page.token not in address and address.startswith("file://")
+    (path,) = home.iterdir()
+    assert path.as_uri() == address and path.stat().st_mode & 0o777 == 0o600
+    assert f'url=http://{page.host}/#token={page.token}"' in path.read_text()
+    page.done("GET", "/api/state")
+    until(lambda: not path.exists())
     process.send_signal(signal.SIGINT)
     assert process.wait() == 0
     process.stdout.close()

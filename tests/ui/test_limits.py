@@ -5,6 +5,7 @@ from __future__ import annotations
 import socket
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from urllib.parse import quote
 
@@ -241,8 +242,9 @@ def test_slow_clients(serve: Callable[[], Server], monkeypatch: pytest.MonkeyPat
     slow.close()
 
 
-def test_too_many_connections(page: Page) -> None:
+def test_too_many_connections(page: Page, monkeypatch: pytest.MonkeyPatch) -> None:
     """One more is closed at once, the others stay; when they go there is room again."""
+    monkeypatch.setattr(server_module, "HEADER", 600.0)
     host, port = page.host.split(":")
     some = [socket.create_connection((host, int(port)), 10) for _ in range(server_module.CONNECTIONS)]
     for connection in [socket.create_connection((host, int(port)), 10) for _ in range(10)]:
@@ -303,3 +305,36 @@ def test_jobs_of_any_shape(page: Page, tmp_path: Path) -> None:
     assert statuses.count(200) > 10 and statuses.count(400) > 200
     answer = page.done("PUT", "/api/job", {"rev": rev, "job": state["job"]})
     assert sorted(answer["plan"]["order"]) == [0, 1]
+
+
+def test_headers_that_trickle(serve: Callable[[], Server], monkeypatch: pytest.MonkeyPatch) -> None:
+    """All connections that there may be send headers byte by byte: they lock nobody out for long."""
+    monkeypatch.setattr(server_module, "HEADER", 1.0)
+    page = Page(serve())
+    host, port = page.host.split(":")
+    begun = b"GET /api/state HTTP/1.1\r\nX: "
+    some = [socket.create_connection((host, int(port)), 10) for _ in range(server_module.CONNECTIONS)]
+    answered = False
+    for text in [begun, *[b"x"] * 400]:
+        for connection in some:
+            with suppress(OSError):
+                connection.sendall(text)
+        answered = is_served(page)
+        if answered:
+            break
+        time.sleep(0.05)
+    assert answered
+    for connection in some:
+        connection.close()
+
+
+def test_header_after_header(page: Page) -> None:
+    """The limit is one request's: a connection that is used again has it anew."""
+    text = head(page, "GET /api/state HTTP/1.1")
+    host, port = page.host.split(":")
+    with socket.create_connection((host, int(port)), 30) as connection:
+        for _ in range(3):
+            connection.sendall(text[:20])
+            time.sleep(0.1)
+            connection.sendall(text[20:])
+            assert connection.recv(65536).startswith(b"HTTP/1.1 200")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import random
 import shutil
 from collections.abc import Callable
@@ -164,7 +165,7 @@ def test_drawing_that_cannot_be_read(page: Page, tmp_path: Path) -> None:
     document.saveas(path)
     state = page.open(path)
     answer = page.put(state, machine={"offset": 0.1})
-    assert "open" in answer["error"]["message"] and answer["contours"] == []
+    assert "open" in answer["error"]["message"] and answer["contours"] == state["contours"]
     run = page.cut(answer["rev"])[1]
     assert run["error"]["message"] == answer["error"]["message"]
     assert page.call("POST", "/api/ways", {"rev": answer["rev"], "ids": [0]}).status == 400
@@ -285,8 +286,9 @@ def test_save_asks(saving: tuple[Page, Json, int], tmp_path: Path) -> None:
         assert page.call("POST", "/api/save", body | {"overwrite": false}).status == 409
     assert (tmp_path / "plate.skg").read_text() == "mine"
     answer = page.call("POST", "/api/save", body | {"overwrite": True})
-    # (the program is written, the tape is a folder)
-    assert answer.status == 400 and says(answer.message, "plate.nodrift.3b", "plate.skg")
+    # (the tape is a folder: that is seen before anything is written)
+    assert answer.status == 400 and says(answer.message, "plate.nodrift.3b")
+    assert (tmp_path / "plate.skg").read_text() == "mine"
     (tmp_path / "plate.nodrift.3b").rmdir()
     assert page.done("POST", "/api/save", body | {"overwrite": True})["written"] == ["plate.skg", "plate.nodrift.3b"]
     for what in (["exe"], [None], [["tape"]], [7], ["tape", "../x"]):
@@ -383,6 +385,39 @@ def test_saved_again_with_a_contour_elsewhere(serve: Callable[[Path], Server], t
     assert [(one["id"], one["confirm"]) for one in new["matches"]] == [(2, False)]
 
 
+def test_saved_again_and_not_to_be_read(serve: Callable[[Path], Server], tmp_path: Path) -> None:
+    """What was read before stays, with the error beside it and the contours that the job is about, whatever becomes of
+    the file; nothing is cut; and all is well when it can be read again."""
+    path = plate(tmp_path)
+    page = Page(serve(path))
+    state = page.state()
+    which = {key: state["contours"][1][key] for key in ("layer", "kind", "at", "size")}
+    state |= page.put(state, contour=[which | {"tab": 1}], machine={"offset": 0.1})
+    whole = path.read_bytes()
+    document = ezdxf.readfile(path)
+    document.modelspace().add_line((5, 50), (25, 50))
+    document.saveas(path)
+    bad = page.done("GET", f"/api/state?after={state['rev']}")
+    same = ("drawn", "sha256", "contours", "matches", "report")
+    assert bad["error"] and bad["plan"] is None and [bad[key] for key in same] == [state[key] for key in same]
+    _, run = page.cut(bad["rev"])
+    assert run["state"] == "failed" and run["error"]["message"] == bad["error"]["message"]
+    # (another job for it, and the file taken away and brought back)
+    bad |= page.put({**bad, "plan": {"contours": {}}}, default={"lead": 2}) | {"plan": None}
+    assert bad["error"] and [bad[key] for key in same] == [state[key] for key in same]
+    away = path.rename(tmp_path / "away.dxf")
+    gone = page.done("GET", f"/api/state?after={bad['rev']}")
+    assert gone["error"] != bad["error"]
+    away.rename(path)
+    os.utime(path)
+    back = page.done("GET", f"/api/state?after={gone['rev']}")
+    assert back["error"] == bad["error"] and back["contours"] == state["contours"]
+    path.write_bytes(whole)
+    new = page.done("GET", f"/api/state?after={back['rev']}")
+    assert not new.get("error") and new["sha256"] == state["sha256"] and new["matches"] == state["matches"]
+    assert new["job"]["default"]["lead"] == 2 and page.cut(new["rev"])[1]["state"] == "done"
+
+
 def test_file_is_gone(serve: Callable[[Path], Server], tmp_path: Path) -> None:
     """It says so, what was read is still there, and all is well when the file is back."""
     path = plate(tmp_path)
@@ -398,6 +433,19 @@ def test_file_is_gone(serve: Callable[[Path], Server], tmp_path: Path) -> None:
     path.unlink()
     path.write_text("no drawing")
     until(lambda: "no drawing" not in str(page.state()) and page.state()["error"])
-    assert page.state()["contours"] == []
+    assert len(page.state()["contours"]) == 3
     shutil.copy(away, path)
     until(lambda: len(page.state()["contours"]) == 3)
+
+
+def test_save_onto_what_is_no_plain_file(saving: tuple[Page, Json, int], tmp_path: Path) -> None:
+    """A link to nothing is asked about; a pipe is refused, and does not keep the page waiting."""
+    page, _, number = saving
+    body = {"run": number, "what": ["tape"], "overwrite": False}
+    (tmp_path / "plate.nodrift.3b").symlink_to(tmp_path / "elsewhere")
+    assert page.call("POST", "/api/save", body).json["exists"] == ["plate.nodrift.3b"]
+    assert not (tmp_path / "elsewhere").exists()
+    (tmp_path / "plate.nodrift.3b").unlink()
+    os.mkfifo(tmp_path / "plate.nodrift.3b")
+    assert page.call("POST", "/api/save", body).status == 409
+    assert page.call("POST", "/api/save", body | {"overwrite": True}).status == 400

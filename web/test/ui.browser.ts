@@ -418,6 +418,18 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await context.close();
   });
 
+  test("the key is not in the address bar, names are shown and not obeyed", async () => {
+    const { url } = await start("part\u202e.dxf", dxf(...box(0, 0, 60, 40), circle(15, 20, 5, "A\u200b\u202eB")));
+    const { page, context } = await visit(url);
+    await drawn(page);
+    assert.equal(page.url(), new URL("/", url).href);
+    assert.equal(await page.textContent("#name"), "part\\u202e.dxf");
+    assert.ok(((await page.textContent("#tree")) ?? "").includes("A\\u200b\\u202eB"));
+    const seen = await page.evaluate(() => document.body.innerText);
+    assert.doesNotMatch(seen, /[\u200b\u202e]/);
+    await context.close();
+  });
+
   test("a reload loses nothing: job, plan, tape, walk", async () => {
     const { url } = await start();
     const { page, context } = await visit(url);
@@ -490,6 +502,12 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await click(page, [16, 15]);
     await value(page, "field-offset", "0.3");
     await settled(page);
+    // one that cannot be read: what was read before stays, and nothing says that it is the new one
+    writeFileSync(join(folder, "part.dxf"), "no drawing");
+    await says(page, "#again", /cannot be read/);
+    await page.waitForSelector("#report .wrong");
+    assert.equal(await page.locator("#tree [data-id]").count(), 3);
+    assert.equal(await page.locator("#matches li").count(), 0);
     writeFileSync(join(folder, "part.dxf"), part(16, 9));
     await page.waitForSelector("#matches .lost");
     await shot(page, "lost");

@@ -5,6 +5,8 @@ import { change, edited, forget, isCut, moved, own, reset, set } from "../src/ui
 import { edgesOf, lengthOfAll, nearest, placeAlong, shapeOf, trace } from "../src/ui/geometry.ts";
 import { typed, typedList } from "../src/ui/look.ts";
 import type { Contour, Edge, Job } from "../src/ui/types.ts";
+import { visible } from "../src/ui/visible.ts";
+import { w } from "../src/ui/words.ts";
 
 const JOB: Job = { schema: 1, drawing: "part.dxf", sha256: "" };
 
@@ -141,4 +143,14 @@ test("numbers as people type them", () => {
   assert.deepEqual(typedList("0.06，0.02 0"), [0.06, 0.02, 0]);
   assert.equal(typedList(" "), undefined);
   assert.equal(typedList("0.06, x"), null);
+});
+
+test("a foreign name is shown, not obeyed, and takes nothing along that stands beside it", () => {
+  assert.equal(
+    visible("a\u001b[2K\u009b\u202eb\u2066\n\u200b\u2028\u2003"),
+    "a\\x1b[2K\\x9b\\u202eb\\u2066\\x0a\\u200b\\u2028\\u2003",
+  );
+  for (const name of ["零件 \u3000 5", "Größe Ø\u00a03", "деталь", "C:\\parts\\a.dxf"]) assert.equal(visible(name), name);
+  assert.equal(visible("قطعة"), "\u2068قطعة\u2069");
+  assert.equal(w("ofLayer", "a\u202e"), "Layer a\\u202e");
 });

@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
+import os
+import sys
+import time
 import webbrowser
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from html import escape
 from pathlib import Path
-from threading import Thread
+from tempfile import gettempdir, mkstemp
+from threading import Event, Thread
 
 import click
 
@@ -40,14 +47,56 @@ def command(file: Path | None, port: int, no_browser: bool) -> None:
             server = Server(port, session)
         except OSError as error:
             raise UserError(Finding("port-failed", port=port, detail=error.strerror)) from None
-        with server:
+        with server, _way_to(server.url, server.is_seen, no_browser) as address:
             session.begin(file)
             click.echo(server.url)
             if not no_browser:
                 # (a browser in this terminal keeps whoever calls it)
-                Thread(target=webbrowser.open, args=(server.url,), daemon=True).start()
+                Thread(target=webbrowser.open, args=(address,), daemon=True).start()
             server.serve_forever()
     except KeyboardInterrupt:
         click.echo()
     finally:
         session.close()
+
+
+@contextmanager
+def _way_to(url: str, is_seen: Event, no_browser: bool) -> Iterator[str]:
+    """The address for the browser, which every user of this machine may read in its command line: that of a file, for
+    this user's eyes alone, that leads to the page. The file is there until the page has been opened.
+
+    Windows shows command lines to their users alone, and macOS gives an address to a browser that is on.
+    """
+    if no_browser or sys.platform == "win32" or (sys.platform == "darwin" and "BROWSER" not in os.environ):
+        yield url
+        return
+    path = _private_file()
+    place = escape(url)
+    refresh = f'<meta http-equiv="refresh" content="0; url={place}">'
+    path.write_text(f'<!doctype html><meta charset="utf-8">{refresh}<title>skg ui</title><a href="{place}">skg ui</a>')
+    Thread(target=_remove_when, args=(is_seen, path), daemon=True).start()
+    try:
+        yield path.as_uri()
+    finally:
+        path.unlink(missing_ok=True)
+
+
+def _private_file() -> Path:
+    """An empty file that no other user can read; those of sessions that were killed are removed.
+
+    It is in the home folder: Ubuntu's browsers, which are snaps, see no other of this user's files, and none hidden.
+    """
+    for folder in (Path.home(), Path(gettempdir())):
+        with suppress(OSError):
+            descriptor, name = mkstemp(prefix="skg-ui-", suffix=".html", dir=folder)
+            os.close(descriptor)
+            for left in folder.glob("skg-ui-????????.html"):
+                if left.stat().st_mtime < time.time() - 600:
+                    left.unlink()
+            return Path(name)
+    raise UserError(Finding("no-private-file"))
+
+
+def _remove_when(is_seen: Event, path: Path) -> None:
+    is_seen.wait()
+    path.unlink(missing_ok=True)

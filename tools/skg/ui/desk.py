@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -13,6 +13,7 @@ from skg.cutting.progress import Progress
 from skg.errors import UserError
 from skg.job import file as job_files
 from skg.job.job import Chosen, Job
+from skg.job.matching import Match
 from skg.job.wanted import Partial
 from skg.messages.finding import Finding
 from skg.pipeline.steps import (
@@ -46,6 +47,8 @@ class Desk:
         self._data = b""
         self._job: Job | None = None
         self._drawn: DrawnJob | None = None
+        #: The drawing as it could be read last, which the page still shows.
+        self._seen: DrawnJob | None = None
         self._routes: dict[int, PlannedContour] = {}
         #: The drawing's plan before, and its form for the page.
         self._before: dict[int, tuple[Asked, PlannedContour]] = {}
@@ -60,13 +63,15 @@ class Desk:
         """The drawing that a job file is for."""
         return job_files.decoded(text, name).drawing
 
-    def open(self, data: bytes, name: str, job: bytes | dict | None) -> dict[str, Any]:
-        """Take up a drawing, with a job from a file or from the page, or none."""
+    def open(self, data: bytes, name: str, job: bytes | dict | None, is_known: bool = False) -> dict[str, Any]:
+        """Take up a drawing, with a job from a file or from the page, or none. `is_known`: it was open before."""
         if isinstance(job, bytes):
             made = job_files.decoded(job, name)
         else:
             made = job_files.from_data(job, _PAGE) if job else Job(name)
         self._data, self._doubts = data, {}
+        if not is_known:
+            self._seen = None
         return self._read(replace(made, drawing=name))
 
     def plan(self, data: dict) -> dict[str, Any]:
@@ -130,25 +135,32 @@ class Desk:
             self._drawn = open_drawing(job, self._data)
         except UserError as error:
             self._why = error
-            state = {"job": job_files.to_data(job), "matches": [], "plan": None, "error": told(error)}
+            matches = self._matches(self._seen.known.find(job.contours, job.box).found) if self._seen else []
+            state = {"job": job_files.to_data(job), "matches": matches, "plan": None, "error": told(error)}
             return {"drawing": {}, "state": {"name": job.drawing} | state}
         self._job = written(job, self._drawn)
         for chosen, match in zip(self._job.contours, self._drawn.matches.found, strict=True):
             if match.is_doubtful:
                 self._doubts[replace(chosen, partial=Partial())] = match.moved
         self._drawn = replace(self._drawn, matches=self._drawn.known.find(self._job.contours, self._job.box))
+        self._seen = self._drawn
         return {"drawing": shown.drawing(self._drawn)} | self._state()
 
     def _state(self) -> dict[str, Any]:
         """The part of the state that changes with the job, and the plan of those contours that it changes."""
-        matches = []
-        for index, (chosen, match) in enumerate(zip(self._job.contours, self._drawn.matches.found, strict=True)):
-            doubt = self._doubts.get(replace(chosen, partial=Partial()))
-            moved = round(doubt or match.moved, 4)
-            matches.append({"chosen": index, "id": match.number, "moved": moved, "confirm": doubt is not None})
+        matches = self._matches(self._drawn.matches.found)
         plan, changed = self._plan()
         state = {"name": self._job.drawing, "job": job_files.to_data(self._job), "matches": matches, "plan": plan}
         return {"state": state, "changed": changed}
+
+    def _matches(self, found: Sequence[Match]) -> list[dict[str, Any]]:
+        """The contours of the drawing that those of the job are, as the page is told of it."""
+        matches = []
+        for index, (chosen, match) in enumerate(zip(self._job.contours, found, strict=True)):
+            doubt = self._doubts.get(replace(chosen, partial=Partial()))
+            moved = round(doubt or match.moved, 4)
+            matches.append({"chosen": index, "id": match.number, "moved": moved, "confirm": doubt is not None})
+        return matches
 
     def _plan(self) -> tuple[bytes, bytes]:
         """The plan: of all contours that can be planned, with what is wrong with the others; and as it has changed."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import re
@@ -17,7 +18,7 @@ from hmac import compare_digest
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib.resources import files
-from threading import BoundedSemaphore
+from threading import BoundedSemaphore, Event
 from typing import NoReturn
 from urllib.parse import parse_qs, unquote
 
@@ -25,6 +26,7 @@ from skg.errors import UserError
 from skg.ui.json_text import encoded, told
 from skg.ui.session import Conflict, Session
 from skg.ui.worker import mistake
+from skg.wording import visible
 
 #: The page and what belongs to it: path -> file of `assets`, its type.
 ASSETS = {
@@ -36,8 +38,8 @@ ASSETS = {
 MOST_DRAWING, MOST_JSON = 64 << 20, 16 << 20
 #: A file's name has no more letters.
 MOST_NAME = 255
-#: A client that says nothing for so long is left; one body takes no longer than the second; s.
-SILENCE, BODY = 30.0, 120.0
+#: A client that says nothing for so long is left; one header and one body take no longer than these; s.
+SILENCE, HEADER, BODY = 30.0, 10.0, 120.0
 #: So many connections at once, more than a few pages have.
 CONNECTIONS = 64
 #: A question for news is answered after so long, whether there is any or not, s.
@@ -68,15 +70,18 @@ class Refused(Exception):
 
 
 class Server(ThreadingHTTPServer):
-    """The server; `url` opens the page."""
+    """The server; `url` opens the page. `is_seen`: somebody has opened it."""
 
     daemon_threads = True
+    # (who has to ask again for a connection waits for a second)
+    request_queue_size = CONNECTIONS
     # (on Windows it would let others take the port as well)
     allow_reuse_address = os.name == "posix"
 
     def __init__(self, port: int, session: Session) -> None:
         self.session = session
         self.token = secrets.token_urlsafe(24)
+        self.is_seen = Event()
         self._free = BoundedSemaphore(CONNECTIONS)
         super().__init__(("127.0.0.1", port), Handler)
         self.host = f"127.0.0.1:{self.server_address[1]}"
@@ -111,6 +116,40 @@ class Server(ThreadingHTTPServer):
         """Say nothing of a client that went away."""
 
 
+class _Incoming(io.RawIOBase):
+    """The bytes that come over a connection. `is_header`: a request's header must be whole within `HEADER` of its first
+    byte, that of the first request within so long of the connection's beginning."""
+
+    def __init__(self, connection: socket.socket) -> None:
+        self._connection = connection
+        self._last: float | None = time.monotonic() + HEADER
+        self.is_header = True
+
+    def readable(self) -> bool:
+        """Tell that it can be read."""
+        return True
+
+    def readinto(self, buffer: memoryview) -> int:
+        """Take what there is; a header that is late is a `TimeoutError`."""
+        usual = self._connection.gettimeout()
+        if self.is_header and self._last is not None:
+            left = self._last - time.monotonic()
+            if left <= 0:
+                raise TimeoutError
+            self._connection.settimeout(left if usual is None else min(left, usual))
+        try:
+            count = self._connection.recv_into(buffer)
+        finally:
+            self._connection.settimeout(usual)
+        if self.is_header and self._last is None:
+            self._last = time.monotonic() + HEADER
+        return count
+
+    def expect_header(self) -> None:
+        """Another request may come, or none."""
+        self.is_header, self._last = True, None
+
+
 class Handler(BaseHTTPRequestHandler):
     """One connection."""
 
@@ -124,6 +163,18 @@ class Handler(BaseHTTPRequestHandler):
     #: So much of a request's body has not been read, bytes; -1: nobody knows.
     _body_left = 0
 
+    def setup(self) -> None:
+        """Begin with a connection."""
+        super().setup()
+        self.rfile.close()
+        self._incoming = _Incoming(self.connection)
+        self.rfile = io.BufferedReader(self._incoming)
+
+    def handle_one_request(self) -> None:
+        """Read a request and answer it."""
+        super().handle_one_request()
+        self._incoming.expect_header()
+
     def log_message(self, format: str, *args: object) -> None:  # noqa: A002 (the library's name)
         """Write no log."""
 
@@ -133,6 +184,7 @@ class Handler(BaseHTTPRequestHandler):
 
     def do_GET(self) -> None:
         """Answer any request."""
+        self._incoming.is_header = False
         self._body_left = self._announced()
         try:
             self._answer()
@@ -173,6 +225,7 @@ class Handler(BaseHTTPRequestHandler):
         given = self.headers.get("Authorization", "")
         if not compare_digest(given.encode("utf-8", "replace"), f"Bearer {self.server.token}".encode()):
             raise Refused(HTTPStatus.UNAUTHORIZED, "no token, or a wrong one: open the address that skg ui printed")
+        self.server.is_seen.set()
 
     def _route(self, path: str) -> tuple[Callable, tuple[str, ...]]:
         others = []
@@ -298,7 +351,7 @@ class Handler(BaseHTTPRequestHandler):
         self._send(encoded(data), "application/json", status)
 
     def _refuse(self, status: HTTPStatus, error: dict, data: dict) -> None:
-        self._send_json({"error": error, **data}, status)
+        self._send_json({"error": error | {"message": visible(error["message"])}, **data}, status)
         self._drain()
 
     def _drain(self) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
@@ -15,6 +16,7 @@ from skg.messages.finding import Finding
 from skg.tape.positions import WITHOUT_DRIFT
 from skg.ui.json_text import told
 from skg.ui.worker import Ended, Worker
+from skg.wording import visible
 
 #: The drawing's file is looked at so often, s.
 _LOOK = 0.5
@@ -22,7 +24,7 @@ _LOOK = 0.5
 MOST_WAYS = 200
 #: Files that can be saved, in the order of writing: no tape if another file fails.
 SAVED = ("program", "job", "sheet", "tape")
-#: The drawing, as the page is told of it, of a file that cannot be read.
+#: The drawing, as the page is told of it, of a file that could never be read.
 NOTHING: dict = {
     **{name: [] for name in ("layers", "contours", "starts", "report")},
     **{name: [0.0, 0.0] for name in ("size", "low")},
@@ -78,6 +80,9 @@ class Session:
         #: The page's state, and the drawing, which stays as long as the contours are the same.
         self._state: dict = {"name": None}
         self._drawing: dict = {}
+        #: The reason why the drawing could not be read, as the page is told of it; it has ended the process.
+        self._unread: dict | None = None
+        self._is_unsafe = False
         self._run: Run | None = None
         self._runs = 0
         self._data = b""
@@ -138,7 +143,7 @@ class Session:
             drawing = self._worker.call("drawing_of", data, name)
             if drawing != self._state["name"]:
                 raise UserError(f"{name} is the job of {drawing}: open that drawing first")
-            self._take(self._worker.call("open", self._data, drawing, data))
+            self._take(self._worker.call("open", self._data, drawing, data, True))
         return self.state()
 
     def plan(self, rev: int, job: dict) -> dict:
@@ -162,7 +167,7 @@ class Session:
     def job(self) -> bytes:
         """The job as a file."""
         with self._called():
-            if self._state.get("job") is None:
+            if self._state.get("job") is None or self._is_unsafe:
                 raise UserError(Finding("no-job-yet"))
             return self._worker.call("job")
 
@@ -180,7 +185,8 @@ class Session:
     def _load(self, data: bytes, name: str, job: bytes | dict | None, path: Path | None = None) -> None:
         """Read a drawing, of a file unless the page sent it; nothing is done where the page has sent another meanwhile.
 
-        One that cannot be read is open all the same, with the error: its job may be at fault.
+        One that cannot be read is open all the same, with the error: its job may be at fault. Where it is a file that
+        was saved anew, the page goes on to show what was read before.
         """
         self._end_what_is_long(path)
         with self._called():
@@ -188,19 +194,25 @@ class Session:
                 return
             self._is_long = True
             self._worker.first = None
+            is_known = path is not None and bool(self._drawing)
             try:
-                answer = self._worker.call("open", data, name, job)
+                answer = self._worker.call("open", data, name, job, is_known)
             except Ended as ended:
                 if ended.is_wanted:
                     raise
-                answer = _unread(name, ended)
+                answer = self._refused(name, ended, is_known)
             except UserError as error:
-                answer = _unread(name, error)
+                answer = self._refused(name, error, is_known)
             finally:
                 with self._news:
                     self._is_long = False
             self._data = data
-            self._take(answer)
+            self._take(answer, not is_known)
+
+    def _refused(self, name: str, error: UserError, is_known: bool) -> dict:
+        """The answer for a drawing that ended the process that read it, or kept it too long."""
+        kept = {key: self._state[key] for key in ("job", "matches")} if is_known else {"job": None, "matches": []}
+        return {"state": {"name": name, "error": told(error), "plan": None} | kept, "drawing": {}, "is_unsafe": True}
 
     def _end_what_is_long(self, path: Path | None) -> None:
         """End a cut or the reading of another drawing: the drawing of a file, or of the page, takes its place."""
@@ -212,16 +224,21 @@ class Session:
             if self._is_long:
                 self._worker.end()
 
-    def _take(self, answer: dict) -> None:
-        """Take what the worker found for the state."""
+    def _take(self, answer: dict, is_other: bool = False) -> None:
+        """Take what the worker found for the state; of a drawing that it could not read, what was read before stays."""
         with self._news:
             self._rev += 1
-            self._state = answer["state"]
-            if answer["drawing"] is not None:
-                self._drawn, self._drawing = self._rev, NOTHING | answer["drawing"]
+            self._state, drawing = answer["state"], answer["drawing"]
+            if drawing is not None:
+                self._unread, self._is_unsafe = self._state.get("error"), answer.get("is_unsafe", False)
+            if is_other:
+                self._drawing = {}
+            if drawing or drawing is not None and not self._drawing:
+                self._drawn, self._drawing = self._rev, NOTHING | drawing
             job = self._state["job"]
             # (a drawing that ended the process is not read once more by the next one)
-            self._worker.first = ("open", (self._data, self._state["name"], job)) if job else None
+            is_known = job is not None and not self._is_unsafe
+            self._worker.first = ("open", (self._data, self._state["name"], job, True)) if is_known else None
             self._news.notify_all()
 
     def _warm(self) -> None:
@@ -251,12 +268,13 @@ class Session:
                 self._say("")
             else:
                 with suppress(Ended):
-                    self._load(data, path.name, self._state["job"], path)
+                    self._load(data, path.name, self._state["job"] or job, path)
 
     def _say(self, message: str) -> None:
-        """Say what is wrong with the drawing's file; nothing is."""
+        """Say what is wrong with the drawing's file; nothing: it is as it was read."""
+        error = {"message": visible(message)} if message else self._unread
         with self._called():
-            self._take({"state": self._state | {"error": {"message": message} if message else None}, "drawing": None})
+            self._take({"state": self._state | {"error": error}, "drawing": None})
 
     # The run.
 
@@ -367,8 +385,12 @@ class Session:
         else:
             files = {"job": self.job()}
         files = {names[kind]: data for kind, data in files.items()}
-        if not is_over and (exists := [name for name in files if (folder / name).exists()]):
+        # (a link to nothing is there too: its target would be written)
+        if not is_over and (exists := [name for name in files if os.path.lexists(folder / name)]):
             raise Conflict(f"{', '.join(exists)}: already there", exists=exists)
+        for name in files:
+            if (folder / name).exists() and not (folder / name).is_file():
+                raise UserError(Finding("no-plain-file").within(name))
         written = []
         for name, data in files.items():
             try:
@@ -378,11 +400,6 @@ class Session:
                 raise UserError(f"{name}: {error.strerror}{done}") from None
             written.append(name)
         return written
-
-
-def _unread(name: str, error: UserError) -> dict:
-    """The state of a drawing that ended the process that read it."""
-    return {"state": {"name": name, "error": told(error), "job": None, "matches": [], "plan": None}, "drawing": {}}
 
 
 def _stamp(path: Path) -> tuple[int, ...] | None:

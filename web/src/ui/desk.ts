@@ -203,7 +203,8 @@ export class Desk {
     if (!isBehind) this.#edited = fresh;
     else if (later.contours) this.#edited = moved(this.#edited, fresh, state.contours);
     this.plan = state.plan;
-    if (before?.name === state.name && before.sha256 !== state.sha256) this.isReadAgain = true;
+    // (of a drawing that could not be read there is no sum)
+    if (before?.name === state.name && before.sha256 && state.sha256 && before.sha256 !== state.sha256) this.isReadAgain = true;
     if (before?.contours === state.contours) {
       this.#tell("job", "plan");
       return;

@@ -21,14 +21,14 @@ import { save } from "./saving.ts";
 import { Gone, Refusal, Server } from "./server.ts";
 import { TellTale } from "./told.ts";
 import { Tree } from "./tree.ts";
+import { visible } from "./visible.ts";
 import { asksForWire } from "./wire.ts";
 import { type Word, w } from "./words.ts";
 
 /** No larger file is read, bytes. */
 const MOST = 64 * 1024 * 1024;
 
-const token = new URLSearchParams(location.hash.slice(1)).get("token") ?? "";
-const server = new Server(token);
+const server = new Server(takeToken());
 const desk = new Desk(server);
 const canvas = new Canvas(get("base"), get("over"), desk, server);
 const cutting = new Cutting(desk, server);
@@ -63,6 +63,15 @@ const saveAll = (): void => {
 };
 const pick = (): void => get<HTMLInputElement>("file").click();
 
+/** The key of the server: out of the address, where others may see it, or what this tab had when it was loaded before. */
+function takeToken(): string {
+  const told = new URLSearchParams(location.hash.slice(1)).get("token");
+  if (told === null) return sessionStorage.getItem("token") ?? "";
+  sessionStorage.setItem("token", told);
+  history.replaceState(null, "", location.pathname);
+  return told;
+}
+
 /** Takes what is still being typed; false where a field holds what cannot be read: it gets the caret. */
 function takeTyped(): boolean {
   const { activeElement } = document;
@@ -82,9 +91,9 @@ function takeTyped(): boolean {
 /** The header and what depends on the job. */
 function say(): void {
   const { state, isReadAgain } = desk;
-  get("name").textContent = state?.name ?? "";
+  get("name").textContent = visible(state?.name ?? "");
   get("size").textContent = state?.contours.length ? w("sizeOf", ...state.size.map(shown)) : "";
-  get("again").textContent = isReadAgain ? w("readAgain") : "";
+  get("again").textContent = state?.error && state.contours.length ? w("readBefore") : isReadAgain ? w("readAgain") : "";
   get("empty").hidden = state !== undefined;
   get<HTMLButtonElement>("undo").disabled = !desk.canUndo;
   get<HTMLButtonElement>("redo").disabled = !desk.canRedo;

@@ -4,6 +4,7 @@ import type { Desk } from "./desk.ts";
 import { isCut, own } from "./edits.ts";
 import { shown } from "./look.ts";
 import type { Contour, Kind, Layer } from "./types.ts";
+import { visible } from "./visible.ts";
 import { w } from "./words.ts";
 
 const GLYPHS = { outline: "▢", opening: "◯", open: "∿" } as const;
@@ -27,7 +28,7 @@ export function layerRow(element: HTMLElement, desk: Desk, layer: Layer, isFolde
     element.ariaDisabled = "true";
   }
   element.ariaSelected = String(typeof scope === "object" && "layer" in scope && scope.layer === layer.name);
-  element.append(make("b", "", layer.name));
+  element.append(make("b", "", visible(layer.name)));
   const [wanted] = own(edited, { layer: layer.name });
   if (wanted?.offset !== undefined) element.append(make("span", "own", `R ${shown(wanted.offset)}`));
   if (!layer.left) return;

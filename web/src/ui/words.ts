@@ -1,5 +1,6 @@
 /** The words of the drawing on the screen, in English and 中文. */
 import { phrase } from "../language.ts";
+import { visible } from "./visible.ts";
 
 const WORDS = {
   title: ["SKG: a drawing becomes a checked tape", "SKG：图纸生成校验过的 3B 代码"],
@@ -34,6 +35,7 @@ const WORDS = {
     "DXF 或 SVG 文件，或已保存的作业文件。只在本机读取，不会上传。",
   ],
   readAgain: ["saved again: read anew", "文件已更新：已重新读取"],
+  readBefore: ["cannot be read now: this was read before", "现在无法读取：显示的是之前读取的内容"],
   sizeOf: ["{0} × {1} mm", "{0} × {1} mm"],
   canvas: [
     "Drawing. Arrow keys choose a contour, plus and minus zoom, 0 shows all, H, E and T take hold of start hole, entry and tab.",
@@ -208,7 +210,9 @@ const WORDS = {
 
 export type Word = keyof typeof WORDS;
 
-export const w = (word: Word, ...values: readonly (string | number)[]): string => phrase(WORDS[word], ...values);
+/** A phrase with its values; texts among them may be foreign names. */
+export const w = (word: Word, ...values: readonly (string | number)[]): string =>
+  phrase(WORDS[word], ...values.map((value) => (typeof value === "string" ? visible(value) : value)));
 
 /** The text for a data-t or data-l of the page. */
 export const find = (word: string): string | undefined => (word in WORDS ? w(word as Word) : undefined);
