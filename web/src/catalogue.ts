@@ -8,6 +8,14 @@ export interface Entry {
   name: string;
   title: Both;
   hint?: Both;
+  /** A number to change first: its program line, and what stands before it there. */
+  change?: Change;
+}
+
+export interface Change {
+  line: number;
+  before: string;
+  number: string;
 }
 
 export interface Group {
@@ -15,10 +23,11 @@ export interface Group {
   parts: readonly Entry[];
 }
 
-const part = (name: string, english: string, chinese: string, hint?: Both): Entry => ({
+const part = (name: string, english: string, chinese: string, hint?: Both, change?: Change): Entry => ({
   name,
   title: [english, chinese],
   ...(hint ? { hint } : {}),
+  ...(change ? { change } : {}),
 });
 
 /** The labels of the parts' sliders. */
@@ -33,11 +42,18 @@ export const CATALOGUE: readonly Group[] = [
   {
     title: ["First parts", "入门零件"],
     parts: [
-      part("plate-fillets", "Plate with two holes", "带两孔的板", [
-        "Change a fillet: line 180, the 8 behind P5.",
-        "改一个过渡圆：第 180 行 P5 后面的 8。",
-      ]),
-      part("wrench", "Wrench", "扳手", ["Change the hexagon: line 50, the 8.5.", "改六角孔：第 50 行的 8.5。"]),
+      part(
+        "plate-fillets",
+        "Plate with two holes",
+        "带两孔的板",
+        ["Change a fillet: line 180, the 8 behind P5.", "改一个过渡圆角：第 180 行 P5 后面的 8。"],
+        { line: 180, before: "P5,", number: "8" },
+      ),
+      part("wrench", "Wrench", "扳手", ["Change the hexagon: line 50, the 8.5.", "改六角孔：第 50 行的 8.5。"], {
+        line: 50,
+        before: "X:",
+        number: "8.5",
+      }),
       part("set-gear", "Spur gear", "直齿轮", ["Move the sliders: module and teeth.", "拖动滑块：模数和齿数。"]),
       part("set-cam", "Disc cam", "盘形凸轮", ["Move the sliders: lift and base radius.", "拖动滑块：升程和基圆半径。"]),
     ],
@@ -148,6 +164,10 @@ export function partTitle(name: string): string | undefined {
   const entry = CATALOGUE.flatMap(({ parts }) => parts).find((each) => each.name === name);
   return entry && inLanguage(entry.title, spoken());
 }
+
+/** The number of a part to change first. */
+export const changeOf = (name: string): Change | undefined =>
+  CATALOGUE.flatMap(({ parts }) => parts).find((each) => each.name === name)?.change;
 
 /** A slider's label, in the present language if it is a part's. */
 export const labelOf = (label: string): string => (spoken() === "zh" ? (LABELS[label] ?? label) : label);

@@ -427,12 +427,15 @@ export class Drawing {
     context.setTransform(this.#pixels, 0, 0, this.#pixels, 0, 0);
     context.clearRect(0, 0, ...this.#size);
     const { blocks } = this.#layout;
-    const chosen = chosenBlocks(this.#chooser.choice, blocks);
+    const { choice } = this.#chooser;
+    const chosen = chosenBlocks(choice, blocks);
     if (chosen.size) {
       context.strokeStyle = this.#colours.chosen;
       context.lineWidth = 4;
       context.lineCap = "round";
-      for (const path of this.#trace(0, (placed) => chosen.has(placed.number))) context.stroke(path);
+      const one = choice && "block" in choice ? blocks[choice.block - 1] : undefined;
+      const paths = one ? this.#trace(0, () => true, [one]) : this.#trace(0, (placed) => chosen.has(placed.number));
+      for (const path of paths) context.stroke(path);
     }
     if (this.#from) {
       const [x, y] = this.view.toPixel(this.#from);

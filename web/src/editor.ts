@@ -15,8 +15,27 @@ export interface Mark {
   more?: { label: string; open: () => void };
 }
 
+/** A number to change: its program line, its column, and what is said of it below. */
+export interface Tip {
+  line: number;
+  column: number;
+  text: string;
+}
+
+const setTip = StateEffect.define<Tip | undefined>();
 const setMarks = StateEffect.define<readonly Mark[]>();
 const setLine = StateEffect.define<number>();
+
+/** A sentence below a line, from a column on. */
+function below(kind: string, column: number, text: string): HTMLElement {
+  const box = document.createElement("div");
+  box.className = kind;
+  box.style.setProperty("--at", String(Math.max(0, column)));
+  const words = document.createElement("span");
+  words.textContent = text;
+  box.append(words);
+  return box;
+}
 
 class Sentence extends WidgetType {
   readonly #mark: Mark;
@@ -31,17 +50,15 @@ class Sentence extends WidgetType {
   }
 
   override toDOM(): HTMLElement {
-    const box = document.createElement("div");
-    box.className = "fault";
-    if (this.#mark.column >= 0) box.style.paddingLeft = `calc(${this.#mark.column}ch + 6px)`;
-    box.textContent = this.#mark.column >= 0 ? `↑ ${this.#mark.text} ` : `${this.#mark.text} `;
+    const { column, text } = this.#mark;
+    const box = below("fault", column, column >= 0 ? `↑ ${text} ` : `${text} `);
     const { more } = this.#mark;
     if (more) {
       const button = document.createElement("button");
       button.type = "button";
       button.textContent = more.label;
       button.addEventListener("click", more.open);
-      box.append(button);
+      box.firstElementChild?.append(button);
     }
     return box;
   }
@@ -60,6 +77,50 @@ function decorations(state: EditorState, marks: readonly Mark[]): DecorationSet 
     true,
   );
 }
+
+class Advice extends WidgetType {
+  readonly #tip: Tip;
+
+  constructor(tip: Tip) {
+    super();
+    this.#tip = tip;
+  }
+
+  override eq(other: Advice): boolean {
+    return other.#tip.text === this.#tip.text && other.#tip.column === this.#tip.column;
+  }
+
+  override toDOM(): HTMLElement {
+    return below("tip", this.#tip.column, `↑ ${this.#tip.text}`);
+  }
+}
+
+/** It goes away at the first change of its line. */
+const tips = StateField.define<DecorationSet>({
+  create: () => Decoration.none,
+  update(value, transaction) {
+    const effect = transaction.effects.find((each) => each.is(setTip));
+    if (!effect) {
+      const isTouched = (from: number, to: number): boolean => {
+        let touched = false;
+        value.between(0, transaction.startState.doc.length, (at) => {
+          const line = transaction.startState.doc.lineAt(at);
+          touched ||= from <= line.to && to >= line.from;
+        });
+        return touched;
+      };
+      let isGone = false;
+      transaction.changes.iterChangedRanges((from, to) => (isGone ||= isTouched(from, to)));
+      return isGone ? Decoration.none : value.map(transaction.changes);
+    }
+    const tip: Tip | undefined = effect.value;
+    const row = tip && rowOf(transaction.state, tip.line);
+    if (!tip || !row) return Decoration.none;
+    const { to } = transaction.state.doc.line(row.number);
+    return Decoration.set([Decoration.widget({ widget: new Advice(tip), block: true, side: 1 }).range(to)]);
+  },
+  provide: (field) => EditorView.decorations.from(field),
+});
 
 const faults = StateField.define<DecorationSet>({
   create: () => Decoration.none,
@@ -136,6 +197,7 @@ export class Editor {
           keymap.of([{ key: "Mod-Enter", run: runs }, { key: "Enter", run: newLine }, ...historyKeymap, ...defaultKeymap]),
           skg,
           faults,
+          tips,
           chosenLine,
           EditorView.contentAttributes.of({ id: "text", tabindex: "0", autocapitalize: "characters", spellcheck: "false" }),
           EditorView.updateListener.of((update) => {
@@ -193,6 +255,11 @@ export class Editor {
     if (first && !this.#view.hasFocus && first.row < this.#view.state.doc.lines) {
       this.#view.dispatch({ effects: EditorView.scrollIntoView(this.#view.state.doc.line(first.row + 1).from) });
     }
+  }
+
+  /** Says below a line which number of it may be changed, until the line is. */
+  set tip(tip: Tip | undefined) {
+    this.#view.dispatch({ effects: setTip.of(tip) });
   }
 
   /** The place of a program line in the text, from 0; -1 where there is none. */

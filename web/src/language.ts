@@ -236,8 +236,8 @@ const WORDS = {
     "This program cuts the wrench that is drawn, with a wire, from a steel plate: SKG computes each block.",
     "这个程序用电极丝从钢板上切出图中的扳手：SKG 计算每一个程序段。",
   ],
-  welcome2: ["Change a number of it, say the 8.5 in line 50, and press RUN.", "改其中一个数，例如第 50 行的 8.5，然后按运行。"],
-  welcome3: ["Then try the plate, the gear, the cam. What you write is kept.", "再试试板、齿轮和凸轮。您写的程序会保存下来。"],
+  welcome2: ["Then try the plate, the gear, the cam. What you write is kept.", "再试试板、齿轮和凸轮。您写的程序会保存下来。"],
+  change: ["change this {0}, and press RUN", "改这个 {0}，然后按运行"],
   time: ["{0} min at 5 mm/min", "{0} 分钟（5 mm/min）"],
   near: ["closes within {0} µm", "闭合误差在 {0} µm 以内"],
 } as const satisfies Record<string, readonly [string, string]>;

@@ -10,6 +10,7 @@ import { Opening } from "./opening.ts";
 import { closePane } from "./pane.ts";
 import { showParts } from "./parts.ts";
 import { readImages, readPartList, readWalk, workerAddress } from "./pieces.ts";
+import { rove } from "./roving.ts";
 import { Session } from "./session.ts";
 import { SettingsMenu, sound } from "./settings.ts";
 import { isSmall, view } from "./shell.ts";
@@ -70,6 +71,7 @@ const session = new Session(workerAddress(), teletype, isEmbedded ? undefined : 
 bench.session = session;
 const menu = new SettingsMenu(settings, bench, teletype, (changed) => (store.settings = changed));
 const opening = new Opening(bench, works, (changed) => menu.apply(changed));
+rove(get("shelf"));
 bind(bench, teletype, opening, settings, works);
 for (const button of document.querySelectorAll(".pane .close")) button.addEventListener("click", closePane);
 onClick("machine", () => void inside.open(session));
@@ -93,6 +95,8 @@ function tellParts(): void {
     welcome.end();
     opening.part(part);
   });
+  const there = opening.parts.find(({ program }) => program === bench.editor.text);
+  if (there) opening.tell(there);
 }
 
 menu.onLanguage = () => {
@@ -133,9 +137,10 @@ async function begin(): Promise<void> {
     (error: unknown) => say("noWalk", String(error)),
   );
   await Promise.all([reading, walking]);
-  const isLinked = await opening.link(location.hash);
-  addEventListener("hashchange", () => void opening.link(location.hash));
-  if (!isLinked && !last && !isEmbedded) welcome.begin(opening);
+  const { isOpened, fault } = await opening.link(location.hash, last?.draft ?? last?.program);
+  addEventListener("hashchange", () => void opening.link(location.hash).then(({ fault }) => fault?.()));
+  if (!isOpened && !last && !isEmbedded) welcome.begin(opening);
+  fault?.();
   document.body.dataset["ready"] = String(Math.round(performance.now()));
   if (!isEmbedded) await isUpdated();
 }

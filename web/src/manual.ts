@@ -3,6 +3,7 @@ import { get } from "./dom.ts";
 import { t } from "./language.ts";
 import { closePane, openPane } from "./pane.ts";
 import { insidePage } from "./pieces.ts";
+import { paintFrame } from "./theme.ts";
 
 const frame = (): HTMLIFrameElement => get<HTMLIFrameElement>("manual-frame");
 
@@ -14,6 +15,7 @@ export function openManual(chapter = 0): void {
   const isThere = page.dataset["file"] === file;
   page.dataset["file"] = file;
   const show = (): void => {
+    paintFrame(page);
     page.contentDocument?.querySelector(`[id^="${chapter}-"]`)?.scrollIntoView();
     page.contentDocument?.addEventListener("click", follow);
   };
@@ -39,7 +41,9 @@ function follow(event: MouseEvent): void {
   const href = link?.getAttribute("href") ?? "";
   if (href.startsWith("./#")) {
     event.preventDefault();
-    location.hash = href.slice(2);
+    // (the address may be there already: the link is followed all the same)
+    if (location.hash === href.slice(2)) dispatchEvent(new HashChangeEvent("hashchange"));
+    else location.hash = href.slice(2);
   } else if (href.startsWith("#")) {
     event.preventDefault();
     frame()

@@ -1,8 +1,9 @@
 /** Opens parts of the list, links, files. */
+import { changeOf } from "./catalogue.ts";
 import { get } from "./dom.ts";
 import { readWhole, recognize, tooLarge } from "./files.ts";
 import { t } from "./language.ts";
-import { LinkError, readLink } from "./link.ts";
+import { type Link, LinkError, readLink } from "./link.ts";
 import { say, show } from "./message.ts";
 import { markPart, type Part } from "./parts.ts";
 import type { Everything, Settings } from "./store.ts";
@@ -23,28 +24,40 @@ export class Opening {
   }
 
   /** Opens a part, and shows it cut. */
-  part(part: Part, run = true): void {
-    void this.#bench.open(part.program, { run, isSound: true });
+  part(part: Part, run = true, isLinked = false): void {
+    void this.#bench.open(part.program, { run, isSound: true, isLinked });
     markPart(get("part-list"), part.name);
+    this.tell(part);
   }
 
-  /** Follows the address' `#…`; false where there is none. */
-  async link(hash: string): Promise<boolean> {
-    if (hash.length < 2) return false;
+  /** Says in the program which number of a part may be changed. */
+  tell({ name, program }: Part): void {
+    const change = changeOf(name);
+    if (!change || this.#bench.editor.text !== program) return;
+    const { line, before, number } = change;
+    const row = program.split("\n").find((each) => each.startsWith(`${line} `)) ?? "";
+    this.#bench.editor.tip = { line, column: row.indexOf(before + number) + before.length, text: t("change", number) };
+  }
+
+  /** Follows the address' `#…`; `there`: the program that is in the machine, which stays when it is the link's. What is wrong
+   * with the link is told; `isOpened`: it has led to a program. */
+  async link(hash: string, there?: string): Promise<{ isOpened: boolean; fault?: () => void }> {
+    if (hash.length < 2) return { isOpened: false };
+    let link: Link;
     try {
-      const link = await readLink(hash);
-      const part = this.parts.find(({ name }) => name === link.part);
-      // (what is changed from here on is the visitor's: a reload does not bring the link's program again)
-      if (!link.embed) history.replaceState(null, "", location.pathname + location.search);
-      if (link.program !== undefined) await this.#open(link.program, { run: link.run });
-      else if (part) this.part(part, link.run);
-      else if (link.part !== undefined) say("badPart", link.part);
-      else return false;
+      link = await readLink(hash);
     } catch (error) {
       if (!(error instanceof LinkError)) throw error;
-      say("badLink");
+      return { isOpened: false, fault: () => say("badLink") };
     }
-    return true;
+    const { program, run, part: name = "" } = link;
+    const part = this.parts.find((each) => each.name === name);
+    const wanted = program ?? part?.program;
+    if (wanted === undefined) return { isOpened: false, ...(name ? { fault: () => say("badPart", name) } : {}) };
+    if (there !== undefined && (there === wanted || there === part?.listed)) this.#bench.linked = there;
+    else if (program !== undefined) await this.#open(program, { run, isLinked: true });
+    else if (part) this.part(part, run, true);
+    return { isOpened: true };
   }
 
   /** Opens a work of the visitor's. */
@@ -52,7 +65,7 @@ export class Opening {
     void this.#open(program, { run: true });
   }
 
-  #open(text: string, how: { run?: boolean; file?: string }): Promise<void> {
+  #open(text: string, how: { run?: boolean; file?: string; isLinked?: boolean }): Promise<void> {
     markPart(get("part-list"), undefined);
     return this.#bench.open(text, how);
   }

@@ -20,6 +20,7 @@ export class Pictures {
   readonly drawing: Drawing;
   readonly list: BlockList;
   readonly punched: PunchedTape;
+  readonly #chooser: Chooser;
   readonly #recording: Recording;
   #walkBar: WalkBar | undefined;
   /** The tape's program is not the one that is seen. */
@@ -28,6 +29,7 @@ export class Pictures {
   measured: Promise<void> | undefined;
 
   constructor(chooser: Chooser, recording: Recording) {
+    this.#chooser = chooser;
     this.#recording = recording;
     this.drawing = new Drawing(get("base"), get("over"), chooser);
     this.list = new BlockList(get("list"), chooser);
@@ -44,6 +46,8 @@ export class Pictures {
       closing: get<HTMLOutputElement>("closing"),
     };
     this.#walkBar = new WalkBar(parts, this.drawing, module, (number, part) => {
+      // (block and program line light up and come into sight)
+      this.#chooser.choose({ block: number }, this.drawing);
       const { offsets, text } = this.#recording;
       const first = offsets[number - 1] ?? 0;
       this.punched.show(text, first + part * ((offsets[number] ?? text.length) - first));

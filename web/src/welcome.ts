@@ -19,7 +19,7 @@ export class Welcome {
     const first = opening.parts.find(({ name }) => name === FIRST);
     if (!first) return;
     // (on a small screen the drawing is seen first)
-    if (isSmall()) get("drawing").prepend(get("welcome"));
+    if (isSmall()) get("walk").after(get("welcome"));
     get("welcome").hidden = false;
     this.#isWaiting = !matchMedia("(prefers-reduced-motion: reduce)").matches;
     opening.part(first);

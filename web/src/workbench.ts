@@ -40,6 +40,8 @@ export class Workbench {
   session!: Session;
   /** The file that was opened, until another program takes its place. */
   origin: Origin | undefined;
+  /** The text that the address leads to: while it is seen, the link stays in the address bar. */
+  linked: string | undefined;
   #sent: string | undefined;
   #wait: ReturnType<typeof setTimeout> | undefined;
   /** The visitor has pressed RUN: who is asked for a number types it at the teletype. */
@@ -97,6 +99,7 @@ export class Workbench {
     if (this.#sent !== undefined && !hasLinesOf(program, this.#sent) && this.session.isRunning) return;
     this.stage.tell(program);
     const isSent = this.#sent === this.editor.text;
+    if (isSent && this.linked === this.#sent) this.linked = program;
     if (isSent ? hasLinesOf(program, this.editor.text) : before === this.editor.text) this.editor.text = program;
     this.#sent = undefined;
     if (this.#fault && !this.isDirty) this.#proof.ended(...this.#fault);
@@ -108,6 +111,11 @@ export class Workbench {
 
   refresh(): void {
     this.session.draft = this.isDirty ? this.editor.text : undefined;
+    if (this.linked !== undefined && this.editor.text !== this.linked) {
+      // (what is changed from here on is the visitor's: a reload does not bring the link's program again)
+      this.linked = undefined;
+      history.replaceState(null, "", location.pathname + location.search);
+    }
     this.session.about = { work: this.#around.works.present, origin: this.origin };
     get("revert").hidden = !this.isDirty;
     const parameters = parametersOf(this.editor.text).map((each) => ({ ...each, label: labelOf(each.label) }));
@@ -176,7 +184,7 @@ export class Workbench {
   }
 
   /** Puts another program in the place of what is there, which is kept; one with faults stays a text. `file`: its file's name. */
-  async open(text: string, { run = false, isSound = false, file = "" } = {}): Promise<void> {
+  async open(text: string, { run = false, isSound = false, file = "", isLinked = false } = {}): Promise<void> {
     clearTimeout(this.#wait);
     const { works } = this.#around;
     this.keepText();
@@ -186,6 +194,8 @@ export class Workbench {
     this.editor.text = withSigns(text);
     this.origin = file ? originOf(file, this.editor.text) : undefined;
     this.editor.marks = [];
+    this.editor.tip = undefined;
+    if (isLinked) this.linked = this.editor.text;
     this.stage.clear(this.#maker(), this.session.isRunning);
     if (!this.session.isAlive) {
       this.refresh();

@@ -9,6 +9,7 @@ import {
   drawn,
   end,
   message,
+  onPaper,
   PHONE,
   prompt,
   saved,
@@ -51,7 +52,7 @@ describe("seen at a glance", { skip: existsSync(CHROMIUM) ? false : "chromium is
     await page.tap("#manual");
     assert.equal(await page.isVisible("#drawing"), false);
     await page.frameLocator("#manual-frame").locator(".try a").first().tap();
-    await says(page, "#made", "from a link");
+    await says(page, "#made", "A PLATE WITH A HOLE");
     await wholeTape(page);
     await page.waitForSelector("#manual-pane", { state: "hidden" });
     assert.ok(await page.isVisible("#drawing"));
@@ -65,6 +66,138 @@ describe("seen at a glance", { skip: existsSync(CHROMIUM) ? false : "chromium is
     await context.close();
   });
 
+  test("the manual in the dark, an ERR's sentence whole, a link that is not whole, and the link in the address", async () => {
+    const { page, context } = await visit({ colorScheme: "dark", viewport: { width: 1440, height: 900 } }, "#z=AAAA&run");
+    await message(page, /link is not whole/);
+    await wholeTape(page, 29); // (no empty machine)
+    await page.click("#manual");
+    const paper = page.frameLocator("#manual-frame").locator("body");
+    await paper.locator("h1").waitFor();
+    const seen = () =>
+      paper.evaluate((body) => [getComputedStyle(body).color, getComputedStyle(document.documentElement).backgroundColor]);
+    const light = ([, back = ""]: string[]) => Number(/\d+/.exec(back)?.[0]) > 128;
+    const [dark] = [await seen()];
+    assert.ok(!light(dark) && dark[0] === "rgb(255, 255, 255)", String(dark));
+    await page.locator("details.menu summary").nth(2).click();
+    await page.selectOption("#theme", "light");
+    assert.ok(light(await seen()), "it takes the page's colours, not the system's");
+    await page.selectOption("#theme", "auto");
+    await page.keyboard.press("Escape");
+    await page.click("#close-manual");
+    await prompt(page);
+    await page.click("#terminal");
+    await page.keyboard.type("190 CUT X,(5,5):1\rRUN\r");
+    await says(page, "#lines .fault", /no room for a fillet/);
+    const [left, right] = await page.evaluate(() => {
+      const [fault, lines] = [document.querySelector(".fault span"), document.getElementById("lines")];
+      return [fault, lines].map((one) => one?.getBoundingClientRect().right ?? 0) as [number, number];
+    });
+    assert.ok(left > 0 && left <= right, `${left} ${right}`);
+    // a link stays in the address while its program is seen, and goes with the first change
+    await page.evaluate(() => (location.hash = "#part=die&run"));
+    await says(page, "#made", "Die: the wire inside");
+    await wholeTape(page);
+    await prompt(page);
+    assert.equal(await page.evaluate(() => location.hash), "#part=die&run");
+    await page.click("#terminal");
+    await page.keyboard.type("I=42\r");
+    await page.waitForFunction(() => /I=42/.test(localStorage.getItem("skg:/some/folder/:machine") ?? ""));
+    await page.reload();
+    await page.waitForSelector("body[data-ready]");
+    await wholeTape(page);
+    await prompt(page);
+    await page.click("#terminal");
+    await page.keyboard.type("PRINT I\r");
+    await onPaper(page, "\n42\n");
+    assert.equal(await page.evaluate(() => location.hash), "#part=die&run", "a reload leaves the machine and the address alone");
+    await page.keyboard.type("5 REM MINE\r");
+    await page.waitForFunction(() => location.hash === "");
+    await context.close();
+  });
+
+  test("while the wire goes, block and line follow, and a screen reader is left in peace; few stops of the Tab key", async () => {
+    const { page, context } = await visit({ viewport: { width: 1440, height: 700 } });
+    await prompt(page);
+    await says(page, "#closing", /close/);
+    await says(page, "#walked", /^block/);
+    await page.evaluate(() => {
+      const said = { count: 0 };
+      Object.assign(window, { said });
+      for (const region of document.querySelectorAll("[role=status], [role=alert], [aria-live], output")) {
+        if (region.getAttribute("aria-live") === "off") continue;
+        new MutationObserver((found) => (said.count += found.length)).observe(region, {
+          childList: true,
+          subtree: true,
+          characterData: true,
+        });
+      }
+    });
+    await says(page, "#walked", /^block 1\d/);
+    assert.equal(await page.evaluate(() => (window as unknown as { said: { count: number } }).said.count), 0);
+    await page.click("#play");
+    await drawn(page);
+    const seen = await page.evaluate(() => {
+      const block = Number(/\d+/.exec(document.getElementById("walked")?.textContent ?? "")?.[0]);
+      const [row, line] = [document.getElementById(`block-${block}`), document.querySelector("#lines .chosen")];
+      const isIn = (one: Element | null, box: Element | null): boolean => {
+        const [a, b] = [one?.getBoundingClientRect(), box?.getBoundingClientRect()];
+        return Boolean(a && b && a.top >= b.top - 1 && a.bottom <= b.bottom + 1);
+      };
+      return {
+        chosen: row?.ariaSelected,
+        row: isIn(row, document.getElementById("list")),
+        line: isIn(line, document.querySelector("#lines .cm-scroller")),
+        number: [/line (\d+)/.exec(row?.textContent ?? "")?.[1], /^\d+/.exec(line?.textContent ?? "")?.[0]],
+      };
+    });
+    assert.deepEqual({ ...seen, number: [] }, { chosen: "true", row: true, line: true, number: [] });
+    assert.equal(seen.number[0], seen.number[1]);
+    // from the page's start to the program
+    await page.evaluate(() => (document.activeElement as HTMLElement).blur());
+    await page.reload();
+    await page.waitForSelector("body[data-ready]");
+    await wholeTape(page);
+    let tabs = 0;
+    for (; tabs < 20 && (await page.evaluate(() => document.activeElement?.id)) !== "text"; tabs++) {
+      await page.keyboard.press("Tab");
+    }
+    assert.ok(tabs < 15, `${tabs} tabs`);
+    await page.focus("[data-part=wrench]");
+    await page.keyboard.press("ArrowDown");
+    assert.equal(await page.evaluate(() => (document.activeElement as HTMLElement).dataset["part"]), "set-gear");
+    await page.keyboard.press("Enter");
+    await says(page, "#made", "Spur gear");
+    await context.close();
+  });
+
+  test("320 pixels: nothing scrolls sideways; the drawing is first, and what to change stands at its number", async () => {
+    for (const locale of ["en-US", "zh-CN"]) {
+      const { page, context } = await visit({ viewport: { width: 320, height: 640 }, hasTouch: true, isMobile: true, locale });
+      await page.waitForFunction(() => /29/.test(document.getElementById("sum")?.textContent ?? ""));
+      const fits = () => page.evaluate(() => document.documentElement.scrollWidth <= 320 && innerWidth <= 320);
+      const [drawing, canvas] = [await page.locator("#drawing").boundingBox(), await page.locator("#canvases").boundingBox()];
+      assert.ok(drawing && canvas && canvas.y - drawing.y < 10 && canvas.height > 280, JSON.stringify(canvas));
+      for (const menu of await page.locator("details.menu summary").all()) {
+        await menu.tap();
+        assert.ok(await fits(), `${locale} ${await menu.textContent()}`);
+        const box = await page.locator("details.menu[open] > div").boundingBox();
+        assert.ok(box && box.x >= 0 && box.x + box.width <= 320, JSON.stringify(box));
+        await menu.tap();
+      }
+      for (const view of ["parts", "teletype", "blocks", "program"]) {
+        await page.tap(`#views [data-view=${view}]`);
+        assert.ok(await fits(), `${locale} ${view}`);
+      }
+      await says(page, ".tip", /8\.5/);
+      const place = await page.evaluate(() => {
+        const row = [...document.querySelectorAll(".cm-line")].find((line) => /^50 /.test(line.textContent ?? ""));
+        return [row, document.querySelector(".tip")].map((one) => one?.getBoundingClientRect().top ?? 0);
+      });
+      assert.ok((place[1] as number) > (place[0] as number) && (place[1] as number) < (place[0] as number) + 30);
+      await context.close();
+    }
+  });
+
   test("in Chinese: the manual, the parts, what their sliders set", async () => {
     const { page, context, said } = await visit({ locale: "zh-CN" });
     await says(page, "#made", "扳手");
@@ -72,7 +205,7 @@ describe("seen at a glance", { skip: existsSync(CHROMIUM) ? false : "chromium is
     await says(page, "#manual-alone", "在单独页面中打开");
     await page.frameLocator("#manual-frame").locator("h1", { hasText: "SKG 语言" }).waitFor();
     await page.frameLocator("#manual-frame").locator(".try a").first().click();
-    await says(page, "#made", "来自链接");
+    await says(page, "#made", "A PLATE WITH A HOLE");
     await page.locator("details.menu summary").nth(2).click();
     await page.selectOption("#language", "en");
     await page.frameLocator("#manual-frame").locator("h1", { hasText: "The SKG language" }).waitFor();
