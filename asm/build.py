@@ -79,9 +79,16 @@ def run(command: list[str], cwd: Path) -> str:
     result = subprocess.run(command, cwd=cwd, capture_output=True, text=True)
     text = result.stdout + result.stderr
     if result.returncode or "ERROR" in text:
-        kept = [line for line in text.splitlines() if line.strip() and not line.startswith(("Processing", "npm"))]
-        fail("\n  ".join(["the assembler says", *kept[-12:]]))
+        fail(f"the assembler says {complaint(text)}")
     return text
+
+
+def complaint(text: str) -> str:
+    """What an assembler has against the sources, in one line where it is asm80: its own stack stands above that."""
+    if found := re.search(r"^ERROR\s+(.+)\n\s*at line\s+(\d+)\s*\n\s*>>>\s*(.+)", text, re.M):
+        return f"{found[1].strip()}: line {found[2]} of its file, {' '.join(found[3].split())}"
+    kept = [line for line in text.splitlines() if line.strip() and not line.startswith(("Processing", "npm"))]
+    return "\n  ".join(["", *kept[-12:]])
 
 
 def z88dk_assembler() -> str | None:

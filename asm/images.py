@@ -65,8 +65,13 @@ UNHELD = {
     "ports": ("ports_2sio", "io_6850", "io_port"),
     "punch": ("nohold", "io_punch", "io_reader", "io_ended"),
 }
-#: One line, which is the teletype, its punch and its reader.
-RC2014 = {"ports": ("ports_rc2014", "io_6850", "io_held", "io_key"), "punch": ("rts", "hold_key", "hold", "io_tty")}
+
+
+def one_line(addresses: str, chip: str = "io_6850") -> dict[str, tuple[str, ...]]:
+    """One line, which is the teletype, its punch and its reader: the file of its addresses, that of its chip."""
+    return {"ports": (addresses, chip, "io_held", "io_key"), "punch": ("rts", "hold_key", "hold", "io_tty")}
+
+
 MILL = Image(
     **UNHELD,
     post=("io_send", "round", "arc_iso", "iso"),
@@ -79,13 +84,15 @@ IMAGES = {
     "skg-tty": Image(
         ports=("ports_2sio", "io_6850", "io_held", "io_key"), punch=("rts", "hold_line", "hold", "io_tty")
     ),
-    "skg-rc2014": Image(map="map_rc2014", **RC2014),
+    "skg-rc2014": Image(map="map_rc2014", **one_line("ports_rc2014")),
     "skg-rc2014-sio": Image(
         map="map_rc2014",
         ports=("ports_sio", "io_sio", "io_held", "io_tape"),
         punch=("rts_sio", "hold_key", "hold", "io_punch", "io_ended"),
     ),
-    "skg-rc2014-ram": Image(map="map_rc2014_ram", restarts=False, forms=(".hex",), **RC2014),
+    "skg-rc2014-ram": Image(map="map_rc2014_ram", restarts=False, forms=(".hex",), **one_line("ports_rc2014")),
+    "skg-minimax8085": Image(map="map_rc2014", **one_line("ports_minimax8085", "io_8251")),
+    "skg-rcbus8085": Image(map="map_rc2014", **one_line("ports_rcbus8085")),
     "skg-nodrift": Image(post=("round", "arc_nodrift", "tape")),
     "skg-mill": MILL,
     "skg-grbl": replace(MILL, post=("io_ok", *MILL.post[1:]), start=("reset", "keep_none")),

@@ -36,6 +36,7 @@ enum {
 
 /* The hardware of each board. */
 typedef struct {
+    const char *name;
     enum { CHIP_6850, CHIP_8251, CHIP_SIO } chip;
     unsigned tty, aux;  /* first port of the teletype's pair, of the punch's and reader's */
     unsigned control;   /* bit 0 of the control side's port */
@@ -44,10 +45,12 @@ typedef struct {
 } board_facts;
 
 static const board_facts FACTS[] = {
-    [BOARD_6850] = { CHIP_6850, 0x10, 0x12, 0, 1, 0x2000 },
-    [BOARD_8251] = { CHIP_8251, 0x10, 0x12, 1, 1, 0x2000 },
-    [BOARD_RC2014] = { CHIP_6850, 0x80, NO_PORT, 0, 1, 0x8000 },
-    [BOARD_RC2014_SIO] = { CHIP_SIO, 0x80, 0x82, 0, BOARD_RECEIVED, 0x8000 },
+    [BOARD_6850] = { "6850", CHIP_6850, 0x10, 0x12, 0, 1, 0x2000 },
+    [BOARD_8251] = { "8251", CHIP_8251, 0x10, 0x12, 1, 1, 0x2000 },
+    [BOARD_RC2014] = { "rc2014", CHIP_6850, 0x80, NO_PORT, 0, 1, 0x8000 },
+    [BOARD_RC2014_SIO] = { "rc2014-sio", CHIP_SIO, 0x80, 0x82, 0, BOARD_RECEIVED, 0x8000 },
+    [BOARD_MINIMAX8085] = { "minimax8085", CHIP_8251, 0x08, NO_PORT, 1, 1, 0x8000 },
+    [BOARD_RCBUS8085] = { "rcbus8085", CHIP_6850, 0xa0, NO_PORT, 0, 1, 0x8000 },
 };
 
 static const board_facts *facts(const board *b)
@@ -385,7 +388,8 @@ static void usart_control(board *b, board_uart *u, uint8_t word)
 {
     switch (u->state) {
     case UART_RESET:
-        u->state = word & MODE_BAUD ? UART_READY : word & MODE_ONE_SYNC ? UART_SYNC1 : UART_SYNC2;
+        u->synchronous = !(word & MODE_BAUD);
+        u->state = !u->synchronous ? UART_READY : word & MODE_ONE_SYNC ? UART_SYNC1 : UART_SYNC2;
         break;
     case UART_SYNC2:
         u->state = UART_SYNC1;
@@ -397,8 +401,8 @@ static void usart_control(board *b, board_uart *u, uint8_t word)
         if (word & COMMAND_RESET) {
             uart_reset(b, u);
         } else {
-            u->sends = word & COMMAND_TXEN;
-            u->receives = word & COMMAND_RXEN;
+            u->sends = (word & COMMAND_TXEN) && !u->synchronous;
+            u->receives = (word & COMMAND_RXEN) && !u->synchronous;
             u->overrun = u->overrun && !(word & COMMAND_ER);
             set_hold(b, u, !(word & COMMAND_RTS));
         }
@@ -464,6 +468,7 @@ static void ask_in_vain(board *b, uint8_t port, board_uart *u)
         b->nobody = true;
         b->nobody_port = port;
         b->nobody_chip = u != NULL;
+        b->nobody_synchronous = u && u->synchronous;
         i8080_stop(&b->cpu);
     }
 }
@@ -479,7 +484,7 @@ static uint8_t port_in(void *user, uint8_t port)
     if (port == DRIVE_PORT) {
         return drive_in(&b->drive, b->cpu.cycles, b->hz);
     }
-    if (!u || u->state != UART_READY) {
+    if (!u || u->state != UART_READY || u->synchronous) {
         ask_in_vain(b, port, u);
     }
     if (!u) {
@@ -520,6 +525,28 @@ static void port_out(void *user, uint8_t port, uint8_t value)
 
 /* ---- the interface ---- */
 
+const char *board_name(board_kind kind)
+{
+    return FACTS[kind].name;
+}
+
+bool board_is_alone(board_kind kind)
+{
+    return FACTS[kind].aux == NO_PORT;
+}
+
+const char *board_chip(board_kind kind)
+{
+    static const char *const names[] = { [CHIP_6850] = "6850", [CHIP_8251] = "8251", [CHIP_SIO] = "SIO" };
+    return names[FACTS[kind].chip];
+}
+
+bool board_has_port(board_kind kind, uint8_t port)
+{
+    unsigned pair = port & ~1U;
+    return pair == FACTS[kind].tty || pair == FACTS[kind].aux;
+}
+
 unsigned board_ram_start(board_kind kind)
 {
     return FACTS[kind].ram;
@@ -544,7 +571,7 @@ board *board_new(board_kind kind, unsigned ram_kib)
     i8080_map(&b->cpu, 0, BOARD_ROM_SIZE - 1, I8080_ROM);
     b->tty_ports = FACTS[kind].tty;
     b->aux_ports = FACTS[kind].aux;
-    b->punch_tty = kind == BOARD_RC2014;
+    b->punch_tty = board_is_alone(kind);
     unsigned ram_start = board_ram_start(kind), ram_end = board_ram_end(kind, ram_kib);
     if (ram_start > BOARD_ROM_SIZE) {
         i8080_map(&b->cpu, BOARD_ROM_SIZE, (uint16_t)(ram_start - 1), I8080_OPEN);

@@ -8,6 +8,7 @@
  *      14H     drive (drive.h)                         drive
  *
  *      BOARD=RC2014: one 6850, status and control at 80H, data at 81H, which is the teletype, its punch and its reader; RAM from 8000.
+ *      BOARD=RCBUS8085: the same at A0H and A1H.  BOARD=MINIMAX8085: one 8251 instead, data at 08H, status and control at 09H.
  *      BOARD=RC2014-SIO: a Z80 SIO, channel A (80H control, 81H data) the teletype, B (82H, 83H) punch and reader; RAM from 8000.
  *
  *                      b7    b6    b5    b4    b3    b2    b1    b0
@@ -18,7 +19,7 @@
  *
  * A 6850 is dead after power-on until its master reset has been followed by another control word; an 8251 takes a mode
  * word first (and one or two sync characters when the mode is synchronous), then commands, of which bit 0 lets it send
- * and bit 2 receive; an SIO sends and receives when WR5 and WR3 say so.
+ * and bit 2 receive; an SIO sends and receives when WR5 and WR3 say so. A synchronous 8251 does neither here.
  *
  * The programmer's view of the outside: a teletype with an operator, a paper tape reader with one tape in it, and a
  * punch. With `punch_tty` there is the teletype alone: its own punch is on from DC2 to DC4, its own reader from DC1 (or
@@ -38,11 +39,11 @@
  * The board counts as waiting for the operator after POLLS_TO_WAIT such questions, whether they were asked in one run
  * or in many short ones.
  *
- * A ROM made for another board asks ports without a chip, or with one that it has never set up, and would ask for ever:
- * board_run returns BOARD_NOBODY. Writes to such ports are lost silently, as on a real board.
+ * A ROM made for another board asks ports without a chip, or with one that it has never set up (or made synchronous), and
+ * would ask for ever: board_run returns BOARD_NOBODY. Writes to such ports are lost silently, as on a real board.
  *
  * NOT IMPLEMENTED: interrupts; parity and framing errors; modem lines that come in (CTS, DCD, DSR are always on);
- * synchronous mode's data; loss of bits that the control word's format leaves out.
+ * synchronous mode; loss of bits that the control word's format leaves out.
  */
 #ifndef BOARD_H
 #define BOARD_H
@@ -77,8 +78,17 @@ typedef struct {
     size_t first, end, size;
 } board_queue;
 
-/* The standard board; one with two 8251s; an RC2014 with RAM from 8000 and one 6850 at 80H (`punch_tty` is its only line), or an SIO. */
-typedef enum { BOARD_6850, BOARD_8251, BOARD_RC2014, BOARD_RC2014_SIO } board_kind;
+/* The standard board; one with two 8251s; those with RAM from 8000: an RC2014 with one 6850 (`punch_tty` is its only line), or with
+ * an SIO; a MiniMax8085 and an RCBus with an 8085 (one line, too). */
+typedef enum {
+    BOARD_6850,
+    BOARD_8251,
+    BOARD_RC2014,
+    BOARD_RC2014_SIO,
+    BOARD_MINIMAX8085,
+    BOARD_RCBUS8085,
+    BOARD_KINDS
+} board_kind;
 
 /* The pace at which characters come into a receiver. */
 typedef struct {
@@ -92,6 +102,7 @@ typedef struct {
 /* One serial port. */
 typedef struct {
     enum { UART_DEAD, UART_RESET, UART_SYNC2, UART_SYNC1, UART_READY } state;
+    bool synchronous; /* (8251) */
     bool sends, receives;
     bool holds; /* /RTS is high, */
     uint64_t holds_from; /* from this cycle on */
@@ -128,7 +139,8 @@ typedef struct board {
     size_t line_length;
     unsigned error_lines; /* lines on the paper that begin with `ERR ` */
     uint8_t nobody_port; /* the port of the last BOARD_NOBODY, */
-    bool nobody_chip; /* and whether it has a chip, never set up */
+    bool nobody_chip; /* and whether it has a chip, never set up, */
+    bool nobody_synchronous; /* or set up as a synchronous one */
 
     /* The rest is the board's own. */
     board_uart tty, aux;
@@ -139,6 +151,14 @@ typedef struct board {
     uint64_t end;
     bool waiting;
 } board;
+
+/* A board's name, as --board takes it; whether its only line is the teletype's. */
+const char *board_name(board_kind kind);
+bool board_is_alone(board_kind kind);
+
+/* The name of a board's chips, and whether one is at a port. */
+const char *board_chip(board_kind kind);
+bool board_has_port(board_kind kind, uint8_t port);
 
 /* The first address of a board's RAM, and the address behind the end of so many KiB of it. */
 unsigned board_ram_start(board_kind kind);

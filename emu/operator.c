@@ -38,28 +38,48 @@ static bool left(const session *s)
     return s->terminal.left || (s->debug && debug_left(s->debug));
 }
 
+/* Asks whether the ROM is for one of the boards that have a chip at a port, those with this chip left out; writes nothing
+ * where there is none. */
+static void ask_for_boards(char *text, size_t size, uint8_t port, const char *chip)
+{
+    const char *before = ": is it for --board ";
+    size_t used = 0;
+    text[0] = '\0';
+    for (int i = 0; i < BOARD_KINDS; i++) {
+        board_kind kind = (board_kind)i;
+        if (board_has_port(kind, port) && (!chip || strcmp(board_chip(kind), chip)) && used < size) {
+            used += (size_t)snprintf(text + used, size - used, "%s%s", before, board_name(kind));
+            before = " or ";
+        }
+    }
+    if (used && used < size) {
+        snprintf(text + used, size - used, "?");
+    }
+}
+
 /* Reports a read of a port without a working chip. */
 static int report_nobody(const session *s)
 {
-    static const struct {
-        const char *chip, *other;       /* the board that has the other chip at the same ports */
-        bool is_rc2014;
-    } boards[] = {
-        [BOARD_6850] = { "6850", "8251", false },
-        [BOARD_8251] = { "8251", "6850", false },
-        [BOARD_RC2014] = { "6850", "rc2014-sio", true },
-        [BOARD_RC2014_SIO] = { "SIO", "rc2014", true },
-    };
     const board *b = s->board;
-    if (b->nobody_chip) {
-        return complain(EXIT_USAGE, "the ROM reads port %02X before it sets up the %s there: is it for --board %s?",
-                        b->nobody_port, boards[b->kind].chip, boards[b->kind].other);
+    const char *chip = board_chip(b->kind);
+    char boards[160];
+    if (b->nobody_synchronous) {
+        return complain(EXIT_USAGE, "the ROM has made the %s at port %02X synchronous, which no teletype is", chip,
+                        b->nobody_port);
     }
-    return complain(EXIT_USAGE, "the ROM reads port %02X, where this board has no chip%s", b->nobody_port,
-                    b->nobody_port >> 2 == 0x80 >> 2 ? ": is it for --board rc2014 or rc2014-sio?"
-                    : boards[b->kind].is_rc2014      ? " (an RC2014): is it for --board 6850 or 8251?"
-                    : b->punch_tty                   ? " with --punch-tty: is it for a punch and reader of their own?"
-                                                     : "");
+    ask_for_boards(boards, sizeof boards, b->nobody_port, b->nobody_chip ? chip : NULL);
+    if (b->nobody_chip) {
+        return complain(EXIT_USAGE, "the ROM reads port %02X before it sets up the %s there%s", b->nobody_port, chip,
+                        boards);
+    }
+    if (b->punch_tty && !board_is_alone(b->kind)) {
+        return complain(
+            EXIT_USAGE,
+            "the ROM reads port %02X, where a board with --punch-tty has no chip: is it for a punch and reader of their own?",
+            b->nobody_port);
+    }
+    return complain(EXIT_USAGE, "the ROM reads port %02X, where this board (%s) has no chip%s", b->nobody_port,
+                    board_name(b->kind), boards);
 }
 
 /* Reports a halt, a breakpoint, a port without a chip, a silent ROM, or the end of --max-cycles. */

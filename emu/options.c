@@ -29,7 +29,7 @@ static const char USAGE[] =
     "  --pty             the teletype is a pseudo-terminal, whose name is printed\n"
     "  --mhz F           keep real time at F MHz\n"
     "  --baud N          speed of the teletype's line, 110 to 9600\n"
-    "  --board KIND      6850, 8251, rc2014 or rc2014-sio (6850)\n"
+    "  --board KIND      6850, 8251, rc2014, rc2014-sio, minimax8085 or rcbus8085 (6850)\n"
     "  --ports TTY,PUNCH other ports: the lower one of each pair, hexadecimal (10,12)\n"
     "  --punch-tty       a teletype alone: its own punch and reader\n"
     "  --punch-pty       punch and reader are a pseudo-terminal, whose name is printed: a machine behind it answers\n"
@@ -194,13 +194,10 @@ static bool read_baud(const char *text, options *o)
 
 static bool read_board(const char *text, options *o)
 {
-    static const char *const names[] = {
-        [BOARD_6850] = "6850", [BOARD_8251] = "8251", [BOARD_RC2014] = "rc2014", [BOARD_RC2014_SIO] = "rc2014-sio"
-    };
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        if (!strcmp(text, names[i])) {
+    for (int i = 0; i < BOARD_KINDS; i++) {
+        if (!strcmp(text, board_name((board_kind)i))) {
             o->kind = (board_kind)i;
-            o->punch_tty |= i == BOARD_RC2014;
+            o->punch_tty |= board_is_alone(o->kind);
             return true;
         }
     }
@@ -303,7 +300,7 @@ static const option_rule RULES[] = {
     { "pty",        FLAG,  SETS(pty) },
     { "mhz",        VALUE, 0, read_mhz, "not 0.001 to 1000" },
     { "baud",       VALUE, 0, read_baud, "not 110, 150, 300, 600, 1200, 2400, 4800 or 9600" },
-    { "board",      VALUE, 0, read_board, "not 6850, 8251, rc2014 or rc2014-sio" },
+    { "board",      VALUE, 0, read_board, "not 6850, 8251, rc2014, rc2014-sio, minimax8085 or rcbus8085" },
     { "ports",      VALUE, 0, read_ports, "expected two even hexadecimal ports, not the drive's 14, such as 20,22" },
     { "punch-tty",  FLAG,  SETS(punch_tty) },
     { "punch-pty",  FLAG,  SETS(punch_pty) },

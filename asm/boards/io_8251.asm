@@ -1,7 +1,7 @@
 ; io_8251.asm - the board's receivers and transmitters: Intel 8251
 ; Offers: TXRDY RXRDY RXOVR SIO8N2 SIOHLD BDINIT RXKEY RXTAP
 ; Uses:   [ports] [punch]
-; Room:   54 bytes
+; Room:   70 bytes
 
 TXRDY   EQU 01H         ; transmitter empty
 RXRDY   EQU 02H         ; receiver full
@@ -11,14 +11,20 @@ USARUN  EQU 37H         ; command: transmitter and receiver on, /RTS low, errors
 SIO8N2  EQU 27H         ; the same without resetting errors
 SIOHLD  EQU 07H         ; and with /RTS high: wait
 
-; BDINIT - readies both ports, then goes to BDREST
+; BDINIT - readies both ports, then goes to BDREST.  One behind the other: where they are one chip it is readied twice, while
+;          each word written to it twice would leave it synchronous
 BDINIT: LXI     H,BDTAB
 BDINI1: MOV     A,M
         INX     H
         OUT     TTYST
-        OUT     PUNST
         CPI     USARUN
         JNZ     BDINI1
+        LXI     H,BDTAB
+BDINI2: MOV     A,M
+        INX     H
+        OUT     PUNST
+        CPI     USARUN
+        JNZ     BDINI2
         JMP     BDREST
 
 BDTAB:  DB      0,0,0           ; ends whatever the 8251 was waiting for

@@ -149,9 +149,11 @@ def test_6850_is_dead_until_it_is_reset() -> None:
     [
         ("4E 37", 0x85),  # asynchronous mode; both ways
         ("4E 04", 0x80),  # no sending
-        ("0C 16 16 37", 0x85),  # synchronous, two characters
-        ("8C 16 37", 0x85),  # synchronous, one character
-        ("0C 16 37", 0x80),  # one too few: 37 is the second
+        ("0C 16 16 37", 0x80),  # synchronous, two characters: no line of a teletype
+        ("8C 16 37", 0x80),  # synchronous, one character
+        ("0C 16 16 37 40 4E 37", 0x85),  # a reset ends that
+        ("8C 16 40 4E 37", 0x85),
+        ("0C 16 40 4E 37", 0x80),  # 40 is the second character: it resets nothing
         ("4E 37 40", 0x80),  # reset: a mode is expected
         ("4E 37 40 4E 37", 0x85),
     ],

@@ -221,7 +221,7 @@ USAGE = [
     (["--mhz", "2x"], ["--mhz 2x: ", 0.001, 1000]),
     (["--baud", "111"], ["--baud 111: ", *BAUD]),
     (["--baud", "no"], ["--baud no: ", *BAUD]),
-    (["--board", "Z80"], ["--board Z80: ", 6850, 8251, "rc2014", "rc2014-sio"]),
+    (["--board", "Z80"], ["--board Z80: ", 6850, 8251, "rc2014", "rc2014-sio", "minimax8085", "rcbus8085"]),
     *(
         (["--ports", ports], [f"--ports {ports}: ", "even", "hexadecimal", "drive", "20,22"])
         for ports in ("20", "20,20", "21,24", "14,20", "20,22,24", "")

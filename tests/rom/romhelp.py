@@ -24,6 +24,8 @@ BOARDS: dict[str, dict[str, Any]] = {
     "skg-tty": {"punch_tty": True},
     "skg-rc2014": {"board": "rc2014"},
     "skg-rc2014-sio": {"board": "rc2014-sio"},
+    "skg-minimax8085": {"board": "minimax8085"},
+    "skg-rcbus8085": {"board": "rcbus8085"},
 }
 #: Those with a paper tape: SAVE punches NULs behind each line, as board.md says.
 PAPER_TAPES = ("skg", "skg-8251", "skg-tty")

@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from romhelp import BLOCK, BOARDS, ROOT, RUN_LIMIT, Board, image, saved_tape
+from romhelp import BLOCK, BOARDS, ROOT, RUN_LIMIT, SOME_EXAMPLES, Board, image, saved_tape
 from test_examples import EXAMPLES, stem
 
 from skg.machine.emulator import Machine
@@ -26,6 +26,8 @@ OPTIONS = {
     "skg-tty": ["--punch-tty"],
     "skg-rc2014": ["--board", "rc2014"],
     "skg-rc2014-sio": ["--board", "rc2014-sio"],
+    "skg-minimax8085": ["--board", "minimax8085"],
+    "skg-rcbus8085": ["--board", "rcbus8085"],
 }
 #: A route that goes on until somebody breaks in.
 ENDLESS = ["10 CUT (0,0)", "20 I=I+1", "30 CUT (I,I/3),(0,I)", "40 GOTO 20", "5 I=0"]
@@ -46,8 +48,11 @@ def test_the_boards_are_all_that_there_are_images_for() -> None:
     )  # these are for the standard board
 
 
-@every_board
-@pytest.mark.parametrize("part", EXAMPLES, ids=stem)
+#: What is not the board's is the same in all of them: a third of the examples there, all on the first.
+TYPED = [(kind, part) for kind in BOARDS for part in (EXAMPLES if kind == "skg" else SOME_EXAMPLES)]
+
+
+@pytest.mark.parametrize(("kind", "part"), TYPED, ids=lambda value: value if isinstance(value, str) else value.stem)
 def test_typed_and_punched(kind: str, part: Path) -> None:
     board = Board(kind=kind)
     typed(board, part)

@@ -158,36 +158,45 @@ def test_the_command_that_puts_nuls_behind_lines(tmp_path: Path) -> None:
     assert (tmp_path / "part.tape").read_bytes() == tape_of(EXAMPLES[0], nuls=4)
 
 
-#: Cycles of an RC2014 in those of the 2 MHz board.
-RC2014_HZ = 7_372_800
+#: The processor's clock of boards whose sender is quick, Hz, and the fastest line that boards.md has for it, baud.
+QUICK = {
+    "skg-rc2014": (7_372_800, 115_200),
+    "skg-rc2014-sio": (7_372_800, 115_200),
+    "skg-minimax8085": (3_072_000, 19_200),
+}
 
 
-every_rc2014 = pytest.mark.parametrize("kind", ["skg-rc2014", "skg-rc2014-sio"])
+every_quick = pytest.mark.parametrize("kind", QUICK)
 
 
-@every_rc2014
+@every_quick
 @pytest.mark.parametrize("cts", [0, 1, 2])
-def test_an_rc2014_takes_a_paste_at_115200_baud(kind: str, cts: int) -> None:
-    """From a terminal that obeys /RTS; slower ones, too, and some hundredths beside the speed."""
+def test_a_quick_sender_that_obeys_rts_may_paste(kind: str, cts: int) -> None:
+    """At the line's speed, slower, and some hundredths beside it."""
+    hz, fastest = QUICK[kind]
     dice = random.Random(f"{kind}{cts}")
     for part in EXAMPLES[cts::3]:
-        baud, end = dice.choice([115_200, 112_000, 118_000, 57_600, 19_200, 9_600]), dice.choice(["\r\n", "\n", "\r"])
+        baud = dice.choice([1, 0.972, 1.024, 0.5, 0.25, 0.125]) * fastest
+        end = dice.choice(["\r\n", "\n", "\r"])
         board = Board(kind=kind)
-        paper = pasted(board, tape_of(part, end), baud / 10 * 2_000_000 / RC2014_HZ, cts)
+        paper = pasted(board, tape_of(part, end), baud / 10 * 2_000_000 / hz, cts)
         assert "ERR" not in paper and board.machine.lost == 0, (part.stem, baud, end)
         assert board.listing() == listed(part), (part.stem, baud, end)
 
 
-@every_rc2014
-def test_an_rc2014_needs_delays_without_rts(kind: str) -> None:
-    """As boards.md says: 1 ms behind each character and 0.2 s behind each line."""
+@every_quick
+def test_a_quick_sender_needs_delays_without_rts(kind: str) -> None:
+    """As boards.md says: 1 ms behind each character and 0.2 s behind each line; twice that at 3 MHz."""
+    hz, fastest = QUICK[kind]
+    character, line_end = (1e-3, 0.2) if hz > 5_000_000 else (2e-3, 0.5)
+    character += 10 / fastest
     for part in EXAMPLES[::4]:
         board = Board(kind=kind)
         machine = board.machine
-        machine.keyboard_cps(1 / (1e-3 + 10 / 115_200) * 2_000_000 / RC2014_HZ, None)
+        machine.keyboard_cps(1 / character * 2_000_000 / hz, None)
         for line in part.read_text().splitlines():
             machine.type(f"{line}\r")
-            machine.run(int(RC2014_HZ * (0.2 + (len(line) + 1) * (1e-3 + 10 / 115_200))), patience=RUN_LIMIT)
+            machine.run(int(hz * (line_end + (len(line) + 1) * character)), patience=RUN_LIMIT)
         machine.keyboard_cps(0)
         machine.run(RUN_LIMIT)
         assert machine.lost == 0

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 UNATTENDED_PATIENCE = 60.0
 #: Speed of a port, baud: an Altair's highest; that of boards whose clock sets one.
 DEFAULT_BAUD = 9600
-BOARD_BAUD = {"rc2014": 115200, "rc2014-sio": 115200}
+BOARD_BAUD = {"rc2014": 115200, "rc2014-sio": 115200, "minimax8085": 19200, "rcbus8085": 115200}
 
 
 @click.command(name="term")

@@ -63,9 +63,9 @@ class BoardStopped(UserError):
 class Board:
     """An SKG board at its prompt, with an operator.
 
-    `rom`: "standard", "no-drift", "mill", "drive", "8251", "tty", "rc2014", "rc2014-sio", the path of an image (.bin or
-    .hex), or its bytes.
-    `ram_kib`: 2 to 56. `board` "6850", "8251", "rc2014" or "rc2014-sio", `ports` (the lower one of the teletype's and
+    `rom`: "standard", "no-drift", "mill", "drive", "8251", "tty", "rc2014", "rc2014-sio", "minimax8085", "rcbus8085",
+    the path of an image (.bin or .hex), or its bytes.
+    `ram_kib`: 2 to 56. `board` one of `skg.machine.emulator.BOARDS`, `ports` (the lower one of the teletype's and
     of the punch's) and `punch_tty` (a teletype alone, its own punch and reader) tell what an image of one's own is made
     for. `max_cycles`: how long one line or one program may take, in cycles of the 2 MHz board (None: for ever).
     `on_paper` is called with all that is printed, as it is printed.

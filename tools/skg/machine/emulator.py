@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 REASONS = ("cycles", "prompt", "input", "wait", "halt", "break", "nobody")
 #: Ends of a call, in the order of `machine_end` (emu/machine.h).
 ENDS = ("returned", "cycles", "stop", "halt", "wait")
-BOARDS = {"6850": 0, "8251": 1, "rc2014": 2, "rc2014-sio": 3}
+BOARDS = {"6850": 0, "8251": 1, "rc2014": 2, "rc2014-sio": 3, "minimax8085": 4, "rcbus8085": 5}
 
 ROM_SIZE = 0x2000
 #: Bytes that a file with an image may have: IMAGE_FILE_LIMIT of emu/image.h.

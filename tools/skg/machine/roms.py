@@ -30,6 +30,8 @@ ROMS = {
     "tty": Rom("skg-tty.bin", punch_tty=True),
     "rc2014": Rom("skg-rc2014.bin", board="rc2014", punch_tty=True),
     "rc2014-sio": Rom("skg-rc2014-sio.bin", board="rc2014-sio"),
+    "minimax8085": Rom("skg-minimax8085.bin", board="minimax8085", punch_tty=True),
+    "rcbus8085": Rom("skg-rcbus8085.bin", board="rcbus8085", punch_tty=True),
 }
 
 
