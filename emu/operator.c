@@ -244,7 +244,7 @@ static int watch_reader(const session *s, bool *told)
     if (empty && s->terminal.ended) {
         return report_reader();
     }
-    if (empty && !*told) {
+    if (empty && !*told && s->terminal.keyboard) {
         remark("the reader is empty (--tape FILE puts a tape in); ctrl-C breaks off");
     }
     *told = empty;
