@@ -349,6 +349,19 @@ def test_command_that_is_killed(begin: Callable, tmp_path: Path) -> None:
     until(lambda: not any(is_running(pid) for pid in children))
 
 
+def test_command_ends_with_its_input(tmp_path: Path) -> None:
+    """What was set and not saved is in a job file beside the drawing, over none that is there."""
+    path, mine = plate(tmp_path), tmp_path / "plate.unsaved.job.toml"
+    mine.write_text("mine")
+    words = [SKG, "ui", "--no-browser", "--until-eof", str(path)]
+    process = subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    page = Shell(process.stdout.readline().strip())
+    page.put(page.state(), machine={"wire": 0.2})
+    _, said = process.communicate()
+    assert process.returncode == 0 and "plate.unsaved-2.job.toml" in said
+    assert mine.read_text() == "mine" and "wire = 0.2" in (tmp_path / "plate.unsaved-2.job.toml").read_text()
+
+
 def is_running(pid: int) -> bool:
     try:
         return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"

@@ -7,7 +7,7 @@ import random
 import shutil
 from collections.abc import Callable
 from pathlib import Path
-from threading import Timer
+from threading import Thread, Timer
 
 import ezdxf
 import pytest
@@ -449,3 +449,48 @@ def test_save_onto_what_is_no_plain_file(saving: tuple[Page, Json, int], tmp_pat
     os.mkfifo(tmp_path / "plate.nodrift.3b")
     assert page.call("POST", "/api/save", body).status == 409
     assert page.call("POST", "/api/save", body | {"overwrite": True}).status == 400
+
+
+def test_it_ends_behind_its_last_page(
+    serve: Callable[[Path], Server], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Not before there was one, nor while one waits for news."""
+    server, other = serve(plate(tmp_path)), serve(plate(tmp_path, "other.dxf"))
+    page = Page(server)
+    state = page.state()
+    asking = Thread(target=page.done, args=("GET", f"/api/state?after={state['rev']}"))
+    asking.start()
+    until(lambda: server._asked)
+    monkeypatch.setattr("skg.ui.server.ALONE", 0.2)
+    assert not server.ending.wait(1.0)
+    page.put(state, machine={"wire": 0.2})
+    until(server.ending.is_set)
+    asking.join()
+    assert server.session.keep() == "plate.unsaved.job.toml"
+    assert server.session.keep() == "plate.unsaved.job.toml", "the same is not written twice"
+    assert "wire = 0.2" in (tmp_path / "plate.unsaved.job.toml").read_text()
+    assert not other.ending.is_set()
+
+
+def test_it_stays_with_what_nobody_could_save(
+    serve: Callable[[], Server], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Settings of a drawing out of the browser have no folder: until they are downloaded they keep the server."""
+    server = serve()
+    page = Page(server)
+    page.put(page.open(plate(tmp_path)), machine={"wire": 0.2})
+    monkeypatch.setattr("skg.ui.server.ALONE", 0.2)
+    assert not server.ending.wait(1.0)
+    page.get("/api/job")
+    until(server.ending.is_set)
+
+
+def test_what_is_saved_is_not_kept(serve: Callable[[Path], Server], tmp_path: Path) -> None:
+    server = serve(plate(tmp_path))
+    page = Page(server)
+    page.put(page.state(), default={"lead": 2})
+    (tmp_path / "plate.job.toml").write_text("mine")
+    job = {"run": None, "what": ["job"]}
+    assert page.call("POST", "/api/save", job).status == 409 and server.session.keep()
+    page.done("POST", "/api/save", job | {"overwrite": True})
+    assert server.session.keep() is None

@@ -12,11 +12,17 @@ from html import escape
 from pathlib import Path
 from tempfile import gettempdir, mkstemp
 from threading import Event, Thread
+from typing import TYPE_CHECKING
 
 import click
 
 from skg.errors import UserError
 from skg.messages.finding import Finding
+from skg.messages.render import text
+from skg.terminal import tell
+
+if TYPE_CHECKING:
+    from skg.ui.server import Server
 
 
 @click.command(name="ui")
@@ -30,12 +36,14 @@ from skg.messages.finding import Finding
     help="Port of the page. Default: a free one.",
 )
 @click.option("--no-browser", is_flag=True, help="Print the page's address and open no browser.")
-def command(file: Path | None, port: int, no_browser: bool) -> None:
+@click.option("--until-eof", is_flag=True, help="End when standard input does: for a program that starts this one.")
+def command(file: Path | None, port: int, no_browser: bool, until_eof: bool) -> None:
     """Show a drawing in the browser, choose how its contours are cut, and cut it.
 
     FILE is a drawing (.dxf or .svg) or a job file (.job.toml); without one the page asks for it. What is cut is saved
     beside it. The page is served to this machine alone, and to those who have the address as it is printed. Ctrl-C ends
-    it.
+    it; it ends by itself when its page has been closed for ten minutes. What was set and not saved is then in a job
+    file beside the drawing.
     """
     from skg.ui.server import Server
     from skg.ui.session import Session
@@ -53,11 +61,25 @@ def command(file: Path | None, port: int, no_browser: bool) -> None:
             if not no_browser:
                 # (a browser in this terminal keeps whoever calls it)
                 Thread(target=webbrowser.open, args=(address,), daemon=True).start()
-            server.serve_forever()
+            if until_eof:
+                Thread(target=_end_with_input, args=(server,), daemon=True).start()
+            try:
+                server.serve_forever()
+            except KeyboardInterrupt:
+                click.echo()
+        if name := session.keep():
+            tell(text(Finding("page-kept", file=name)))
     except KeyboardInterrupt:
         click.echo()
     finally:
         session.close()
+
+
+def _end_with_input(server: Server) -> None:
+    """End the server when nobody can write to standard input any more."""
+    while sys.stdin is not None and sys.stdin.buffer.read1(1 << 12):
+        pass
+    server.end()
 
 
 @contextmanager

@@ -12,13 +12,13 @@ import socket
 import socketserver
 import sys
 import time
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from hmac import compare_digest
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib.resources import files
-from threading import BoundedSemaphore, Event
+from threading import BoundedSemaphore, Event, Lock, Thread
 from typing import NoReturn
 from urllib.parse import parse_qs, unquote
 
@@ -46,6 +46,8 @@ CONNECTIONS = 64
 PATIENCE = 25.0
 #: So often it is seen whether anybody still waits for that, s.
 GLANCE = 1.0
+#: Without a page for so long, once there was one, the server ends, s. (Browsers put pages aside, and load them again.)
+ALONE = 600.0
 #: Permissions of a page from here: to talk to this server alone.
 POLICY = (
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' data: blob:; "
@@ -82,6 +84,12 @@ class Server(ThreadingHTTPServer):
         self.session = session
         self.token = secrets.token_urlsafe(24)
         self.is_seen = Event()
+        #: Requests of pages that are being answered; seconds without any, None before the first.
+        self._asked, self._lock = 0, Lock()
+        self._alone: float | None = None
+        self._looked = time.monotonic()
+        #: Set when the server is told to end.
+        self.ending = Event()
         self._free = BoundedSemaphore(CONNECTIONS)
         super().__init__(("127.0.0.1", port), Handler)
         self.host = f"127.0.0.1:{self.server_address[1]}"
@@ -90,6 +98,37 @@ class Server(ThreadingHTTPServer):
     def url(self) -> str:
         """The page, with the token where no server and no log sees it."""
         return f"http://{self.host}/#token={self.token}"
+
+    @contextmanager
+    def asked(self) -> Iterator[None]:
+        """Note that a page is there, and waits."""
+        with self._lock:
+            self._asked += 1
+        try:
+            yield
+        finally:
+            with self._lock:
+                self._asked -= 1
+                self._alone = 0.0
+
+    def service_actions(self) -> None:
+        """End when the last page has been gone for a while, and nothing would be lost; called about twice a second."""
+        now = time.monotonic()
+        # (a computer that slept has not waited for its page)
+        passed, self._looked = min(now - self._looked, GLANCE), now
+        with self._lock:
+            if self._alone is None or self._asked:
+                return
+            self._alone += passed
+        if self._alone > ALONE and self.session.may_end():
+            self.end()
+
+    def end(self) -> None:
+        """End `serve_forever`, from whatever thread."""
+        if not self.ending.is_set():
+            self.ending.set()
+            # (it waits for the loop, which may be the caller)
+            Thread(target=self.shutdown, daemon=True).start()
 
     def server_bind(self) -> None:
         """Bind without asking name servers who 127.0.0.1 is."""
@@ -215,7 +254,8 @@ class Handler(BaseHTTPRequestHandler):
             return
         self._refuse_strangers()
         route, words = self._route(path)
-        route(self, {key: values[-1] for key, values in parse_qs(query).items()}, *words)
+        with self.server.asked():
+            route(self, {key: values[-1] for key, values in parse_qs(query).items()}, *words)
 
     def _refuse_strangers(self) -> None:
         """Refuse who comes from another page, or has not the token."""

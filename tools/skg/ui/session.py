@@ -90,6 +90,8 @@ class Session:
         self._path: Path | None = None
         self._job_path: Path | None = None
         self._stamp: tuple[int, ...] | None = None
+        #: The job as a file has it, or as it was before the page changed it; None before there is one.
+        self._saved: dict | None = None
         self._closed = Event()
 
     def begin(self, path: Path | None) -> None:
@@ -104,6 +106,32 @@ class Session:
         self._path, self._stamp = path, _stamp(path)
         data = read_bytes(str(path))
         Thread(target=self._watch, args=(data, job), daemon=True).start()
+
+    def may_end(self) -> bool:
+        """Whether nobody is kept waiting and nothing is lost when all ends now."""
+        return not self._is_long and (self._path is not None or not self._has_changes())
+
+    def keep(self) -> str | None:
+        """Write what the page has set and nobody has saved beside the drawing, over nothing: the job file's name."""
+        if self._path is None or not self._has_changes():
+            return None
+        if self._run:
+            self.cancel(self._run.number)
+        name, data = self._names()["job"].removesuffix(JOB), self._job_file()
+        path = self._path.with_name(f"{name}.unsaved{JOB}")
+        try:
+            number = 1
+            while path.exists() and path.read_bytes() != data:
+                number += 1
+                path = self._path.with_name(f"{name}.unsaved-{number}{JOB}")
+            if not path.exists():
+                write_bytes(str(path), data)
+        except OSError as error:
+            raise UserError(Finding("page-not-kept", file=path.name, detail=error.strerror)) from None
+        return path.name
+
+    def _has_changes(self) -> bool:
+        return self._state.get("job") is not None and self._state["job"] != self._saved
 
     def close(self) -> None:
         """End all that is on."""
@@ -143,7 +171,7 @@ class Session:
             drawing = self._worker.call("drawing_of", data, name)
             if drawing != self._state["name"]:
                 raise UserError(f"{name} is the job of {drawing}: open that drawing first")
-            self._take(self._worker.call("open", self._data, drawing, data, True))
+            self._take(self._worker.call("open", self._data, drawing, data, True), is_saved=True)
         return self.state()
 
     def plan(self, rev: int, job: dict) -> dict:
@@ -165,7 +193,12 @@ class Session:
             return {"rev": rev, "ways": self._worker.call("ways", ids)}
 
     def job(self) -> bytes:
-        """The job as a file."""
+        """The job as a file, which the page has then."""
+        data = self._job_file()
+        self._note_saved(None)
+        return data
+
+    def _job_file(self) -> bytes:
         with self._called():
             if self._state.get("job") is None or self._is_unsafe:
                 raise UserError(Finding("no-job-yet"))
@@ -207,7 +240,9 @@ class Session:
                 with self._news:
                     self._is_long = False
             self._data = data
-            self._take(answer, not is_known)
+            # (read anew with what the page has set: that is saved no more than before)
+            is_saved = not isinstance(job, dict) or not self._has_changes()
+            self._take(answer, not is_known, is_saved)
 
     def _refused(self, name: str, error: UserError, is_known: bool) -> dict:
         """The answer for a drawing that ended the process that read it, or kept it too long."""
@@ -224,11 +259,16 @@ class Session:
             if self._is_long:
                 self._worker.end()
 
-    def _take(self, answer: dict, is_other: bool = False) -> None:
-        """Take what the worker found for the state; of a drawing that it could not read, what was read before stays."""
+    def _take(self, answer: dict, is_other: bool = False, is_saved: bool = False) -> None:
+        """Take what the worker found for the state; of a drawing that it could not read, what was read before stays.
+
+        `is_saved`: the job is a file's, or nobody has set anything.
+        """
         with self._news:
             self._rev += 1
             self._state, drawing = answer["state"], answer["drawing"]
+            if is_saved:
+                self._saved = self._state["job"]
             if drawing is not None:
                 self._unread, self._is_unsafe = self._state.get("error"), answer.get("is_unsafe", False)
             if is_other:
@@ -383,7 +423,7 @@ class Session:
             files = {kind: self.file(number, kind) for kind in SAVED if kind in kinds}
             names["tape"] = self._known(number).result["tape_name"]
         else:
-            files = {"job": self.job()}
+            files = {"job": self._job_file()}
         files = {names[kind]: data for kind, data in files.items()}
         # (a link to nothing is there too: its target would be written)
         if not is_over and (exists := [name for name in files if os.path.lexists(folder / name)]):
@@ -399,7 +439,15 @@ class Session:
                 done = f"; {', '.join(written)} is written" if written else ""
                 raise UserError(f"{name}: {error.strerror}{done}") from None
             written.append(name)
+        if "job" in kinds:
+            self._note_saved(number)
         return written
+
+    def _note_saved(self, number: int | None) -> None:
+        """Note that the job of a run, or that of now, is in a file."""
+        with self._news:
+            if number is None or self._run and (self._run.number, self._run.rev) == (number, self._rev):
+                self._saved = self._state["job"]
 
 
 def _stamp(path: Path) -> tuple[int, ...] | None:
