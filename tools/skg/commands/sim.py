@@ -15,7 +15,7 @@ from skg.geometry.plane import XY
 from skg.messages.render import line, text
 from skg.sources.load import is_iso, load
 from skg.tape.block import Tape
-from skg.tape.controller import drive_steps, stops_in_pairs
+from skg.tape.controller import drive_steps
 from skg.tape.dialect import GcodeDialect
 from skg.tape.simulation import Report, closing, duration, simulate
 from skg.tape.text import odd_stops
@@ -59,11 +59,9 @@ def _write_steps(path: str, tapes: list[Tape]) -> None:
     """The steps of all tapes, one after the other."""
     write_bytes(path, b"".join(chain.from_iterable(map(drive_steps, tapes))))
     for tape in tapes:
-        if not stops_in_pairs(tape):
-            tell(
-                f"skg: {tape.name}: its stops are not in pairs around moves: bit 7 of the steps turns over at each of "
-                "them, which is not where it cuts and where it moves"
-            )
+        # (the pauses of G-code)
+        if why := odd_stops(tape):
+            tell(f"skg: {line(why.within(tape.name))}")
 
 
 def _rounded(value: object) -> object:
@@ -111,7 +109,7 @@ def command(
 
     Reports blocks, travel, where the blocks ended, the largest distance from the programmed path, the time,
     and whether the path closes. A program (.skg, .xy, .tkh) is run first. TAPE - is the standard input. Exit code 1
-    with an odd number of stops: a drive's wire would be off where the tape cuts.
+    where an odd number of stops stands before a cut: a drive's wire would be off there.
     """
     tapes = [load(name, dialect=dialect) for name in tapes_]
     odd = {

@@ -104,13 +104,3 @@ def drive_steps(tape: Tape) -> Iterator[bytes]:
         else:
             for piece in _port_steps(item):
                 yield piece.translate(_CUT) if cuts else piece
-
-
-def stops_in_pairs(tape: Tape) -> bool:
-    """Tell whether what lies between the 1st stop and the 2nd, the 3rd and the 4th, … is positioning, and nothing else
-    is.
-
-    Bit 7 is then on where the tape cuts, and nowhere else. A single stop at the tape's end is none.
-    """
-    stretches, moves = tape.stretches(), tape.positioning()
-    return all(is_move == (index % 2 == 1) for index, is_move in enumerate(moves) if stretches[index])

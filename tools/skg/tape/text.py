@@ -144,18 +144,22 @@ def scan(data: bytes, name: str = "-", positions: str = "auto") -> tuple[Tape, l
         TapeFault(block.number, 1, text) for block in _doubtful(tape, positions) for text in block.problems(positions)
     ]
     if why := odd_stops(tape):
-        wrong.append(TapeFault(tape.stops[-1].after + 1, 1, text_of(why)))
+        wrong.append(TapeFault(why["number"], 1, text_of(why)))
     return tape, sorted(wrong + reading.findings, key=lambda finding: (finding.block, finding.column))
 
 
 def odd_stops(tape: Tape) -> Finding | None:
-    """The reason why a drive would cut where a tape moves, an odd number of stops before its last block; else None.
+    """The reason why a drive's wire, which each stop turns off or on, is off where a tape cuts: the first block of the
+    kind; else None.
 
-    A run that was broken off leaves such a tape, when another one goes on behind it.
+    What stands between the 1st stop and the 2nd, the 3rd and the 4th, …, or behind the last of an odd number, is no
+    re-positioning, which is at most one straight move. A run that was broken off leaves such a tape, when another one
+    goes on behind it.
     """
-    if len(tape.stops) % 2 == 0 or tape.stops[-1].after == len(tape.blocks):
-        return None
-    return Finding("odd-stops", count=len(tape.stops))
+    for count, (first, last) in enumerate(tape.bounds):
+        if count % 2 and (last - first > 1 or last > first and not tape.blocks[first].is_line):
+            return Finding("odd-stops", count=count, number=tape.blocks[first].number)
+    return None
 
 
 def _doubtful(tape: Tape, positions: str) -> Iterable[Block]:
