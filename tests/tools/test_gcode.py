@@ -18,6 +18,8 @@ from toolhelp import CAD_TAPE, Run
 
 from skg import tape as tapes
 from skg.errors import UserError
+from skg.messages.finding import Finding, Phrase
+from skg.messages.render import text as text_of
 from skg.ref import mill
 from skg.tape import Block, Stop, Tape, gcode, gcode_reader
 from skg.tape.layout import PlacedRoute, place
@@ -247,17 +249,19 @@ def test_what_does_not_cut(text: str) -> None:
     tape, counted, why = IDLE[text]
     program = gcode_reader.read(f"G21 G90\n{text}")
     assert tapes.to_bytes(program.tape().items).decode().split() == tape.split()
-    said = f"{counted} moves with G1 to G3 do not cut: the "
-    said += f"tool is {why}" if "up" in why else f"beam is off ({why})"
-    assert program.notes == ((said,) if counted else ())
+    assert len(program.notes) == bool(counted)
+    for note in program.notes:
+        assert note.code == "moves-idle" and f"{note['idle']} of {note['moves']}" == counted
+        (value,) = dict(note["why"].values).values()
+        assert text_of(Phrase("plain", text=value)) == why.removeprefix("up, ")
 
 
 def test_a_beam_that_is_never_on_is_none() -> None:
     """Spindles that are turned on by hand, and posts that write S0 for them: cuts all the same, and said."""
     program = gcode_reader.read("G21 G90\nS0 M3\nG1 X1 F5\nX2\nM2")
     assert tapes.to_bytes(program.tape().items).decode().split() == ["B1000B0B1000GXL1"] * 2 + ["DD"]
-    said = "each G1 finds the beam off (M5 or S0), as if nothing were cut: taken for cuts all the same"
-    assert program.guesses == (f"line 2, column 1: {said}",)
+    (guess,) = program.guesses
+    assert guess.code == "gcode-beam-always-off" and guess.source == (Phrase("at-column", line=2, column=1),)
 
 
 def test_what_does_not_cut_in_pictures(run: Run, tmp_path: Path) -> None:
@@ -423,7 +427,7 @@ def test_plot_sim_and_dxf(run: Run, tmp_path: Path) -> None:
 def test_the_first_number_without_a_unit_is_named(cycle: str) -> None:
     """Of R and Z of a drilling cycle it is the one that stands first, in every run."""
     _, findings = gcode_reader.scan(f"G90\n{cycle}\nM2")
-    assert says(findings[0], "line 2, column 5", "G20", "G21", "mm")
+    assert (findings[0].line, findings[0].column) == (2, 5) and says(findings[0].finding, "G20", "G21", "mm")
 
 
 @pytest.mark.parametrize(("up", "down", "said"), [
@@ -435,8 +439,9 @@ def test_the_first_number_without_a_unit_is_named(cycle: str) -> None:
 ])  # fmt: skip
 def test_a_pen_of_which_nobody_knows_when_it_is_up(up: str, down: str, said: str) -> None:
     text = "G21 G90 F5\n" + "".join(f"{up}\nG1 X{n}\n{down}\nG1 Y{n}\n" for n in range(1, 5)) + "M5\nM2"
-    notes = " ".join(gcode_reader.read(text).notes)
-    assert ("lifts a pen" in notes) == bool(said) and said in notes
+    notes = gcode_reader.read(text).notes
+    told = [f"{note['first']} and {note['second']} of {note['word']}" for note in notes if note.code == "pen-unknown"]
+    assert told == [said] * bool(said)
 
 
 @pytest.mark.parametrize("text", [
@@ -447,8 +452,7 @@ def test_an_output_of_which_nobody_knows_what_it_is(text: str) -> None:
     """Beside a spindle, or beside other outputs, it may be a coolant as well."""
     program = gcode_reader.read(f"G21 G90\n{text}\nM2")
     assert tapes.to_bytes(program.tape().items).decode().split() == ["B1000B0B1000GXL1"] * 2 + ["DD"]
-    said = "M62 to M65 switch outputs, on in 1 of 2 moves with G1 to G3: if one of them is a beam"
-    assert [note.startswith(said) for note in program.notes] == [True]
+    assert program.notes == (Finding("outputs-unknown", lit=1, moves=2),)
 
 
 def test_a_line_takes_little_room() -> None:

@@ -17,7 +17,7 @@ from urllib.parse import quote
 
 import pytest
 from facthelp import says
-from uihelp import Json, Page, circles, plate, until
+from uihelp import Json, Page, circles, english, plate, until
 
 from skg.ui import worker
 from skg.ui.server import Server
@@ -58,7 +58,7 @@ def test_killed_in_a_call(server: Server, tmp_path: Path) -> None:
     time.sleep(0.3)
     os.kill(before, signal.SIGKILL)
     reading.join()
-    assert "SIGKILL" in answers[0]["error"]["message"] and answers[0]["contours"] == []
+    assert "SIGKILL" in english(answers[0]["error"]) and answers[0]["contours"] == []
     assert len(page.open(plate(tmp_path))["contours"]) == 3
     assert process_of(server) != before
 
@@ -85,7 +85,7 @@ def test_killed_in_a_cut(server: Server, tmp_path: Path) -> None:
     number = page.done("POST", "/api/cut", {"rev": state["rev"]})["run"]
     os.kill(process_of(server), signal.SIGKILL)
     run = page.wait(number)
-    assert run["state"] == "failed" and "SIGKILL" in run["error"]["message"]
+    assert run["state"] == "failed" and "SIGKILL" in english(run["error"])
     assert page.call("GET", f"/api/run/{number}/tape").status == 400
     assert page.cut(state["rev"])[1]["state"] == "done"
 
@@ -253,7 +253,7 @@ def test_hostile_drawing(server: Server, monkeypatch: pytest.MonkeyPatch, name: 
     page = Page(server)
     state = page.done("POST", "/api/open", HOSTILE[name], X_Name=quote(name))
     if state.get("error"):
-        assert state["error"]["message"] and "\n" not in state["error"]["message"] and not state["contours"]
+        assert english(state["error"]) and "\n" not in english(state["error"]) and not state["contours"]
     else:
         assert name in ("itself.dxf", "count.dxf") and len(state["contours"]) == 1
     monkeypatch.undo()
@@ -265,7 +265,7 @@ def test_time_is_limited(server: Server, tmp_path: Path, monkeypatch: pytest.Mon
     page.open(plate(tmp_path))
     monkeypatch.setattr(worker, "SECONDS", 0.05)
     state = page.open(circles(tmp_path, 3000))
-    assert says(state["error"]["message"], "given up")
+    assert says(english(state["error"]), "given up")
     monkeypatch.undo()
     assert len(page.open(plate(tmp_path))["contours"]) == 3
 
@@ -279,7 +279,7 @@ def test_memory_is_limited(server: Server, tmp_path: Path) -> None:
     used = int(Path(f"/proc/{process_of(server)}/statm").read_text().split()[0]) * resource.getpagesize()
     resource.prlimit(process_of(server), resource.RLIMIT_AS, (used + (8 << 20), worker.MEMORY))
     state = page.open(circles(tmp_path, 8000))
-    assert "memory" in state["error"]["message"] or "has ended" in state["error"]["message"]
+    assert "memory" in english(state["error"]) or "has ended" in english(state["error"])
     assert len(page.open(plate(tmp_path))["contours"]) == 3
 
 

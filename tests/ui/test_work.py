@@ -14,7 +14,7 @@ import pytest
 from click.testing import CliRunner
 from ezdxf import units
 from facthelp import says
-from uihelp import Json, Page, circles, plate, until
+from uihelp import Json, Page, circles, english, plate, until
 
 from skg.cli import cli
 from skg.ui.server import Server
@@ -44,7 +44,7 @@ def test_nothing_is_open(page: Page) -> None:
         answer = page.call(method, path, body)
         assert answer.status == 400 and answer.message, path
     run = page.cut(state["rev"])[1]
-    assert run["state"] == "failed" and "no drawing" in run["error"]["message"]
+    assert run["state"] == "failed" and "no drawing" in english(run["error"])
 
 
 def test_drawing(page: Page, tmp_path: Path) -> None:
@@ -165,15 +165,15 @@ def test_drawing_that_cannot_be_read(page: Page, tmp_path: Path) -> None:
     document.saveas(path)
     state = page.open(path)
     answer = page.put(state, machine={"offset": 0.1})
-    assert "open" in answer["error"]["message"] and answer["contours"] == state["contours"]
+    assert "open" in english(answer["error"]) and answer["contours"] == state["contours"]
     run = page.cut(answer["rev"])[1]
-    assert run["error"]["message"] == answer["error"]["message"]
+    assert english(run["error"]) == english(answer["error"])
     assert page.call("POST", "/api/ways", {"rev": answer["rev"], "ids": [0]}).status == 400
     answer = page.put(answer, read={"open": "leave"})
     assert len(answer["contours"]) == 3 and not answer.get("error")
     for data in (b"", b"no drawing", bytes(1000), b"\xff" * 1000):
         state = page.done("POST", "/api/open", data, X_Name="x.dxf")
-        assert state["error"]["message"] and state["contours"] == [] and state["name"] == "x.dxf"
+        assert english(state["error"]) and state["contours"] == [] and state["name"] == "x.dxf"
 
 
 def test_two_tabs(page: Page, tmp_path: Path) -> None:
@@ -225,7 +225,7 @@ def test_cut(page: Page, tmp_path: Path) -> None:
     said = skg("cut", path, "--wire", 0.18, "--gap", 0.01, "-o", tape, "--program", program).splitlines()
     assert page.get(f"/api/run/{number}/tape").body == tape.read_bytes()
     assert page.get(f"/api/run/{number}/program").body == program.read_bytes()
-    assert [line["text"] for line in run["result"]["lines"]] == said
+    assert [english(line) for line in run["result"]["lines"]] == said
     assert run["result"]["blocks"] == tape.read_bytes().count(b"G")
     assert run["result"]["tape_name"] == "plate.nodrift.3b"
     assert page.get(f"/api/run/{number}/sheet").body.startswith(b"%PDF")
@@ -358,7 +358,7 @@ def test_saved_again_without_a_contour(serve: Callable[[Path], Server], tmp_path
     state |= page.put(state, contour=[which | {"cut": False}])
     plate(tmp_path, holes=1)
     new = page.done("GET", f"/api/state?after={state['rev']}")
-    assert new["matches"][0]["id"] is None and says(new["plan"]["error"]["message"], "contour", "job")
+    assert new["matches"][0]["id"] is None and says(english(new["plan"]["error"]), "contour", "job")
     assert new["plan"]["order"] == [1, 0] and len(new["job"]["contour"]) == 1
     assert page.cut(new["rev"])[1]["state"] == "failed"
     del new["job"]["contour"]
@@ -401,7 +401,7 @@ def test_saved_again_and_not_to_be_read(serve: Callable[[Path], Server], tmp_pat
     same = ("drawn", "sha256", "contours", "matches", "report")
     assert bad["error"] and bad["plan"] is None and [bad[key] for key in same] == [state[key] for key in same]
     _, run = page.cut(bad["rev"])
-    assert run["state"] == "failed" and run["error"]["message"] == bad["error"]["message"]
+    assert run["state"] == "failed" and english(run["error"]) == english(bad["error"])
     # (another job for it, and the file taken away and brought back)
     bad |= page.put({**bad, "plan": {"contours": {}}}, default={"lead": 2}) | {"plan": None}
     assert bad["error"] and [bad[key] for key in same] == [state[key] for key in same]
@@ -425,7 +425,7 @@ def test_file_is_gone(serve: Callable[[Path], Server], tmp_path: Path) -> None:
     state = page.state()
     away = path.rename(tmp_path / "away.dxf")
     gone = page.done("GET", f"/api/state?after={state['rev']}")
-    assert "plate.dxf" in gone["error"]["message"] and len(gone["contours"]) == 3
+    assert "plate.dxf" in english(gone["error"]) and len(gone["contours"]) == 3
     assert page.cut(gone["rev"])[1]["state"] == "done"
     shutil.copy(away, path)
     back = page.done("GET", f"/api/state?after={gone['rev']}")

@@ -17,6 +17,13 @@ from skg.ui.server import Server
 Json = dict
 
 
+def english(error: Json) -> str:
+    """The English sentence of an error or line, which has one in Chinese, too."""
+    first, other = error["message"] if "message" in error else error["text"]
+    assert first and other
+    return first
+
+
 @dataclass
 class Answer:
     """An answer of the server."""
@@ -32,7 +39,7 @@ class Answer:
     @property
     def message(self) -> str:
         """Of an error."""
-        message = self.json["error"]["message"]
+        message = english(self.json["error"])
         assert "\n" not in message and "Traceback" not in message
         return message
 

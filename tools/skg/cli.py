@@ -16,7 +16,7 @@ import click
 
 from skg.errors import UserError
 from skg.garbage import collect_rarely
-from skg.messages.finding import Finding
+from skg.messages.finding import Finding, Phrase
 from skg.terminal import tell
 
 # numpy's linear algebra, which skg does without, would start a thread for each processor: a quarter of a short run.
@@ -165,8 +165,10 @@ def main() -> None:
     except BrokenPipeError:
         _leave(1)
     except OSError as error:
-        name = "standard output" if error.filename is None else error.filename or "empty file name"
-        _fail(f"{name}: {error.strerror}")
+        if error.filename == "":
+            _fail(str(Finding("empty-file-name")))
+        name = Phrase("stdout") if error.filename is None else error.filename
+        _fail(str(Finding("system", detail=error.strerror).within(name)))
     # (else the interpreter looks through all that is left, and through all modules, once more before it ends)
     gc.freeze()
     sys.exit(code)

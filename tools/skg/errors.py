@@ -11,14 +11,9 @@ if TYPE_CHECKING:
 
 
 class UserError(Exception):
-    """An error in the user's input: a finding with its place. The command line prints it in one line and exits with 2.
+    """An error in the user's input: a finding. The command line prints it in one line and exits with 2."""
 
-    (A text instead of a finding is for what the catalogues do not have yet.)
-    """
-
-    def __init__(self, finding: Finding | str, contour: int | None = None, place: tuple | None = None) -> None:
-        if isinstance(finding, str):
-            finding = Finding("plain", text=finding, contour=contour, place=place)
+    def __init__(self, finding: Finding) -> None:
         super().__init__(finding)
         self.finding = finding
         #: The language and the medium of its text, where they are not the process's.

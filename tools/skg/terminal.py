@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import sys
 
+from skg.messages.finding import Finding
+from skg.messages.render import line
 from skg.wording import visible
 
 
@@ -13,6 +15,11 @@ def tell(message: str) -> None:
         print(visible(message), file=sys.stderr, flush=True)
 
 
-def show(line: str) -> None:
+def remark(finding: Finding, by: str = "skg") -> None:
+    """Write a finding to standard error, as a command's remark."""
+    tell(f"{by}: {line(finding)}")
+
+
+def show(text: str) -> None:
     """Write a line to standard output."""
-    print(visible(line))
+    print(visible(text))

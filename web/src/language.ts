@@ -255,9 +255,12 @@ export function preferred(languages: readonly string[]): Language {
   return "en";
 }
 
+/** That of two texts which is in the present language. */
+export const inPresent = (both: readonly [string, string]): string => both[present === "en" ? 0 : 1];
+
 /** A phrase of both languages in the present one, with values for `{0}`, `{1}`… */
 export function phrase(both: readonly [string, string], ...values: readonly (string | number)[]): string {
-  return both[present === "en" ? 0 : 1].replace(/\{(\d)\}/g, (_, at: string) => String(values[Number(at)] ?? ""));
+  return inPresent(both).replace(/\{(\d)\}/g, (_, at: string) => String(values[Number(at)] ?? ""));
 }
 
 export const t = (word: Word, ...values: readonly (string | number)[]): string => phrase(WORDS[word], ...values);

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from math import copysign, pi
 
 import numpy as np
@@ -21,10 +21,11 @@ from skg.geometry.arrays import Floats, Whole
 from skg.geometry.piece import Piece
 from skg.geometry.pieces import Pieces
 from skg.geometry.plane import XY, distance
+from skg.messages.finding import Finding, Phrase
+from skg.messages.render import text
 from skg.ref.route import Segment
 from skg.ref.values import Curve, Point
 from skg.tape.layout import Laid, PlacedRoute
-from skg.wording import short, shown
 
 #: Ends that are no further apart are one corner, mm.
 _CORNER = 1e-3
@@ -46,12 +47,19 @@ class Spoilt:
     is_other: bool = False
     tool: str = "wire"
 
-    def __str__(self) -> str:
-        where = f"{shown(self.place)}{f', near line {self.line}' if self.line is not None else ''}"
-        if self.depth:
-            whose = " of another contour" * self.is_other
-            return f"{where}: the {self.tool}{whose} cuts {short(self.depth)} mm into the contour"
-        return f"{where}: the {self.tool} does not come to the contour there"
+    @property
+    def finding(self) -> Finding:
+        """The finding with its place."""
+        tool = Phrase(f"tool-{self.tool}")
+        code = "path-cuts-in" if not self.is_other else "path-of-other-cuts-in"
+        why = Finding(code, tool=tool, depth=self.depth) if self.depth else Finding("path-not-there", tool=tool)
+        if self.line is None:
+            return why.within(Phrase("at-place", place=self.place))
+        return why.within(Phrase("at-place-near-line", place=self.place, line=self.line))
+
+    def plain(self) -> dict[str, object]:
+        """The place for other programs."""
+        return asdict(self) | {"code": self.finding.code, "message": text(self.finding)}
 
 
 @dataclass(frozen=True)
@@ -62,9 +70,15 @@ class RefusedProgram:
     error: int
     line: int | None
 
-    def __str__(self) -> str:
-        where = "" if self.line is None else f" LINE {self.line}"
-        return f"the reference refuses it with ERR {self.error:02d}{where}: behind that the check is not whole"
+    @property
+    def finding(self) -> Finding:
+        """The finding."""
+        where = None if self.line is None else Phrase("of-line", line=self.line)
+        return Finding("reference-refuses", number=self.error, where=where)
+
+    def plain(self) -> dict[str, object]:
+        """The refusal for other programs."""
+        return asdict(self) | {"code": self.finding.code, "message": text(self.finding)}
 
 
 @dataclass

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import asdict, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import click
@@ -13,6 +13,8 @@ from skg.commands.options import positions_option, read_machine_option
 from skg.errors import UserError
 from skg.file_type import TAPE, kind_of
 from skg.files import without_filling
+from skg.messages.finding import Finding, Phrase
+from skg.messages.render import line
 from skg.rivals.languages import is_program, is_rival
 from skg.sources.load import drawn_routes, iso_text, program_text, tape_bytes
 from skg.sources.milling import is_milling
@@ -21,8 +23,7 @@ from skg.tape.block import Tape
 from skg.tape.dialect import GcodeDialect
 from skg.tape.styles import read_any
 from skg.tape.text import TapeFault, scan
-from skg.terminal import show, tell
-from skg.wording import counted
+from skg.terminal import remark, show
 
 if TYPE_CHECKING:
     from skg.checking.wire_fit import RefusedProgram, Spoilt
@@ -58,9 +59,9 @@ def command(
         if text is not None:
             program, findings = gcode_reader.scan(text, dialect=dialect)
             if not as_json:
-                _list(name, findings, f"{len(text.splitlines())} lines", list_all)
+                _list(name, findings, Phrase("count-lines", count=len(text.splitlines())), list_all)
             for note in program.notes:
-                tell(f"skg: {name}: {note}")
+                remark(note.within(name))
         else:
             tape, findings = scan(data, name, positions)
             if not as_json:
@@ -69,10 +70,10 @@ def command(
         if is_program(name):
             misfits, count = _misfits(name, data)
             if (count or misfits) and not as_json:
-                _list(name, misfits, f"the path beside {counted(count, 'contour')}", list_all)
+                _list(name, misfits, Phrase("path-beside", count=count), list_all)
             all_findings += [(name, misfit) for misfit in misfits]
     if as_json:
-        click.echo(json.dumps([{"tape": name, **asdict(finding)} for name, finding in all_findings]))
+        click.echo(json.dumps([{"tape": name, **finding.plain()} for name, finding in all_findings]))
     if all_findings:
         raise SystemExit(1)
 
@@ -116,33 +117,32 @@ def _placed(tape: bytes, start: XY, mills: bool) -> list[PlacedRoute]:
 def _list(
     name: str,
     findings: Sequence[TapeFault | gcode_reader.GcodeFinding | RefusedProgram | Spoilt],
-    size: str,
+    size: Phrase,
     list_all: bool,
 ) -> None:
     """Write the findings of a tape, or that there is none."""
     if not findings:
-        show(f"{name}: {size}, nothing wrong")
+        show(line(Finding("nothing-wrong", size=size).within(name)))
     listed = findings if list_all else findings[:MOST]
     for finding in listed:
-        show(f"{name}: {finding}")
+        show(line(finding.finding.within(name)))
     if len(findings) > len(listed):
-        show(f"{name}: {len(findings) - len(listed)} more (--all lists them)")
+        show(line(Finding("more-findings", number=len(findings) - len(listed)).within(name)))
 
 
 def _list_3b(name: str, data: bytes, tape: Tape, findings: list[TapeFault], list_all: bool) -> None:
     """The same of a 3B tape, and how it is read when it is written in another style."""
-    notes: Sequence[str] = ()
+    notes: Sequence[Finding] = ()
     if findings:
         try:
             notes = read_any(data, name).notes
         except UserError as error:
-            if kind_of(data) not in ("", TAPE) or not tape.blocks and len(findings) > MOST and not list_all:
+            if kind_of(data) not in (None, TAPE) or not tape.blocks and len(findings) > MOST and not list_all:
                 # No tape at all: every line is a finding.
                 show(str(error))
                 return
-    blocks = len(tape.blocks)
-    _list(name, findings, f"{blocks} block{'s' * (blocks != 1)}", list_all)
+    _list(name, findings, Phrase("count-blocks", count=len(tape.blocks)), list_all)
     if b"\x1a" in data[len(without_filling(data)) :]:
-        tell(f"skg: {name}: ends with ctrl-Zs, as a file of CP/M does; they are not on the tape")
+        remark(Finding("ctrl-zs").within(name))
     for note in notes:
-        tell(f"skg: {name}: {note}; the other commands read it so, and `skg tape` writes it as the punch")
+        remark(Finding("other-style-read", note=note).within(name))

@@ -40,7 +40,7 @@ from skg.messages.render import Medium, Speech, data, line, speech, text
 from skg.reading.read import Wishes, layer_lines
 from skg.tape.dialect import GcodeDialect
 from skg.tape.gcode import is_gcode
-from skg.terminal import show, tell
+from skg.terminal import remark, show, tell
 
 if TYPE_CHECKING:
     from skg.cutting.job import CutResult
@@ -304,7 +304,7 @@ def _cut(
         for layer in layers:
             show(layer)
         for note in notes:
-            tell(f"skg: {path}: {note}")
+            remark(note.within(path))
         return None
     form = picture_format(sheet, None) if sheet else ""
     if is_gcode(output) and not dialect:

@@ -17,7 +17,7 @@ from skg.files import text_output
 from skg.geometry.plane import XY
 from skg.messages.finding import Finding
 from skg.tape.dialect import GcodeDialect
-from skg.terminal import tell
+from skg.terminal import remark
 
 
 @click.command(name="dxf")
@@ -52,7 +52,7 @@ def command(
         if start:
             raise UserError(Finding("iso-has-places").within(file))
         if heights := program.heights():
-            tell(f"skg: {file}: all in one plane: {heights}")
+            remark(Finding("heights-in-plane", heights=heights).within(file))
         with text_output(output) as stream:
             write(stream, program.routes(), program.stop_places, polylines, program.holes)
         return

@@ -14,7 +14,7 @@ from skg.tape import gcode
 from skg.tape.block import micrometres
 from skg.tape.dialect import MILL, GcodeDialect
 from skg.tape.text import to_bytes
-from skg.terminal import tell
+from skg.terminal import remark
 
 #: mm/min, where nothing else is said.
 FEED = 100.0
@@ -23,7 +23,7 @@ _ONE_OR_TWO = Numbers("D[,D1]", "a number, or two", 1, 2)
 
 def _feeds(feed: tuple[float, ...] | None) -> tuple[float, float]:
     if feed is None:
-        tell(f"skg: F{FEED:g} mm/min, no --feed was given")
+        remark(Finding("no-feed-given", feed=FEED))
         return FEED, FEED
     if min(feed) < 0.001:
         raise UserError(Finding("feed-too-small", feed=min(feed)))

@@ -12,11 +12,11 @@ import click
 
 from skg.errors import UserError
 from skg.job.values import LEAST_FEED, MOST_OFFSET
-from skg.messages.finding import Finding
+from skg.messages.finding import Finding, Phrase
 from skg.tape.block import MAX_DIGITS, Tape
 from skg.tape.dialect import GcodeDialect
 from skg.tape.positions import POSITIONS, WITHOUT_DRIFT, decide, depends
-from skg.terminal import tell
+from skg.terminal import remark
 
 #: Formats of pictures, by the ending of a file's name.
 FORMATS = ("svg", "png", "pdf")
@@ -30,7 +30,7 @@ positions_option = click.option(
 )
 
 
-def picture_format(output: str, form: str | None, also: str = "") -> str:
+def picture_format(output: str, form: str | None, also: Phrase | None = None) -> str:
     """The format of a picture: as said, else by the file's name; the standard output is SVG.
 
     `also`: what else may tell it.
@@ -54,11 +54,11 @@ def decided(tape: Tape, positions: str) -> str:
     return decision.positions
 
 
-def say(tape: Tape, more: str = "") -> None:
+def say(tape: Tape, more: Finding | None = None) -> None:
     """Write to standard error what was noted when a tape was read, and what else there is to say."""
-    nothing = "" if tape.blocks else "no blocks: nothing is cut"
+    nothing = None if tape.blocks else Finding("no-blocks")
     for note in (*tape.notes, *filter(None, [more, nothing])):
-        tell(f"skg: {tape.name}: {note}")
+        remark(note.within(tape.name))
 
 
 def unmarked(output: str, tape: Tape, rom: str) -> list[Finding]:

@@ -21,8 +21,8 @@ from skg.commands.options import (
 )
 from skg.errors import UserError
 from skg.geometry.plane import XY
-from skg.messages.finding import Finding
-from skg.terminal import tell
+from skg.messages.finding import Finding, Phrase
+from skg.terminal import remark
 
 if TYPE_CHECKING:
     from skg.pictures.plot import Sheet
@@ -78,7 +78,7 @@ def command(
 
     Start holes are circles, drilled holes crosses in them, stops squares, moves that do not cut dashed.
     """
-    form = picture_format(output, form, ", or --format")
+    form = picture_format(output, form, Phrase("or-format"))
     from skg.pictures.plot import COLOURS, Picture
 
     laid = [
@@ -93,7 +93,7 @@ def command(
         picture.draw(sheet, COLOURS[index % len(COLOURS)], f"tape-{index + 1}", wire, not no_arrows, blocks)
         picture.stops(stops[index], f"tape-{index + 1}")
     if picture.left_out:
-        tell(f"skg: {output}: {picture.left_out} block numbers left out, there is no room for them")
+        remark(Finding("numbers-left-out", count=picture.left_out).within(output))
     if len(sheets) > 1:
         picture.legend([sheet.name for sheet in sheets])
     picture.save(output, form)
@@ -109,7 +109,7 @@ def _laid(
     contour = contour_of(name) if show_offset else ()
     if program := iso_program(name, skg80, dialect):
         if heights := program.heights():
-            tell(f"skg: {name}: {heights}")
+            remark(Finding("heights", heights=heights).within(name))
         return Sheet(Path(name).name, program.routes(), contour, tuple(program.holes)), program.stop_places
     tape = load(name, skg80)
     routes, stops = lay_out(tape, start or tape.start, decided(tape, positions))

@@ -7,8 +7,10 @@ import sys
 import click
 
 from skg.commands.options import answers_option, output_option
+from skg.errors import UserError
 from skg.files import board_text, read_bytes, write_bytes
-from skg.terminal import tell
+from skg.messages.finding import Finding
+from skg.terminal import remark
 
 
 @click.command("ref")
@@ -44,11 +46,11 @@ def command(part: str, output: str, answers: str | None, drift: bool, mill: bool
     elif drift:
         result = milling.run(text, inputs, line_end="\n" if grbl else "\r\n", runs=runs)
     else:
-        raise click.UsageError("--no-drift is for 3B tapes: an ISO tape has no drift")
+        raise UserError(Finding("no-drift-in-iso"))
     click.echo(result.paper, err=True, nl=False)
     if result.error and not (mill or grbl) and is_milling(program):
-        tell(f"skg: {part}: a milling program: --mill runs it")
+        remark(Finding("milling-with-mill").within(part))
     if lost := given_up(program):
-        tell(f"skg: {part}: {lost}")
+        remark(lost.within(part))
     write_bytes(output, result.tape)
     sys.exit(0 if result.error is None else 1)

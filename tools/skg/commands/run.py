@@ -11,15 +11,14 @@ import click
 from skg.commands.options import answers_option, output_option, unmarked
 from skg.errors import UserError
 from skg.files import board_text, read_bytes, write_bytes
-from skg.machine.board import Board, BoardStopped
+from skg.machine.board import Board, BoardStopped, meaning
 from skg.machine.feeding import MEMORY_FULL, given_up, rest_of, too_large
 from skg.machine.roms import ROMS, known_rom
 from skg.messages.finding import Finding
-from skg.messages.render import line
 from skg.sources.load import program_text
 from skg.sources.milling import MILL_ROM, is_milling
 from skg.tape.text import parse
-from skg.terminal import tell
+from skg.terminal import remark as say
 
 #: Exit codes, those of build/skg80; by the reason for which the board stopped, else ERR.
 ERR, STOPPED = 1, {"cycles": 3, "nobody": 2, "break": 2}
@@ -27,7 +26,7 @@ ERR, STOPPED = 1, {"cycles": 3, "nobody": 2, "break": 2}
 
 def _answers(name: str | None) -> Iterator[str]:
     yield from board_text(read_bytes(name), name).splitlines() if name else ()
-    raise BoardStopped("input", "INPUT asks, and --input has no line left")
+    raise BoardStopped("input", Finding("answers-used-up"))
 
 
 @click.command(name="run")
@@ -62,17 +61,17 @@ def command(part: str, output: str, rom: str | None, ram: int, answers: str | No
     if rom is None:
         rom = MILL_ROM if is_milling(text) else "standard"
         if rom == MILL_ROM:
-            tell(f"skg: {part}: a milling program, run by the mill ROM")
+            say(Finding("milling-by-rom").within(part))
 
     def show(paper: str) -> None:
         nonlocal line_begins
         click.echo(paper, err=True, nl=False)
         line_begins = paper.endswith("\n")
 
-    def remark(text: object) -> None:
+    def remark(finding: Finding) -> None:
         if not line_begins:
             show("\r\n")
-        tell(f"skg: {text}")
+        say(finding)
 
     tape, code = b"", 0
     try:
@@ -84,18 +83,20 @@ def command(part: str, output: str, rom: str | None, ram: int, answers: str | No
         finally:
             tape = board.tape
         code = ERR if board.error else 0
+        if board.error and not (board.error.number == MEMORY_FULL and not answers):
+            remark(Finding("err", error=board.error.words, meaning=meaning(board.error.number)).within(part))
         if board.error and board.error.number == MEMORY_FULL and not answers:
-            remark(too_large(part, text, ram, rom))
+            remark(too_large(part, text, ram, rom).finding)
     except BoardStopped as stopped:
-        remark(f"{part}: {stopped}")
+        remark(stopped.finding.within(part))
         code = STOPPED.get(stopped.reason, ERR)
     write_bytes(output, tape)
     if lost := given_up(text):
-        remark(f"{part}: {lost}")
+        remark(lost.within(part))
     known = known_rom(rom)
     if output != "-" and code == 0 and known not in (None, MILL_ROM):
         # (a tape of several runs is none to the other commands)
         with suppress(UserError):
             for finding in unmarked(output, parse(tape, part), known):
-                remark(line(finding.within(output)))
+                remark(finding.within(output))
     sys.exit(code)

@@ -12,47 +12,57 @@ from skg.commands.options import decided, feed_option, positions_option, read_ma
 from skg.errors import UserError
 from skg.files import write_bytes
 from skg.geometry.plane import XY
-from skg.messages.render import line, text
+from skg.messages.finding import Finding, Phrase
+from skg.messages.render import text
 from skg.sources.load import is_iso, load
 from skg.tape.block import Tape
 from skg.tape.controller import drive_steps
 from skg.tape.dialect import GcodeDialect
-from skg.tape.simulation import Report, closing, duration, simulate
+from skg.tape.simulation import Report, RouteReport, closing, duration, simulate
 from skg.tape.text import odd_stops
-from skg.terminal import show, tell
+from skg.terminal import remark, show
 
 
 def _lines(report: Report, blocks: bool) -> list[str]:
     """The report on a tape, line by line."""
     lines = []
     if blocks:
-        head = f"{'block':>5}  {'tape':<40} {'should end at':>20} {'really at':>20} {'miss':>8} {'off':>6}"
-        lines.append(head)
+        lines.append(text(Phrase("sim-head")))
         for row in report.each:
             miss = row.really[0] - row.should[0], row.really[1] - row.should[1]
             lines.append(
                 f"{row.number:>5}  {row.block:<40} {_xy(row.should):>20} {_xy(row.really):>20} "
                 f"{_xy(miss) if miss != (0, 0) else '-':>8} {row.off_curve:>6.3f}"
             )
-    stops = f", {report.stops} stops" if report.stops else ""
-    as_programmed = f" (as programmed: {closing(report.programmed_gap)})"
-    lines += [
-        f"{report.name}: {report.blocks} blocks{stops}",
-        f"travel      {report.travel / 1000:.3f} mm in {report.steps} steps, "
-        f"{text(duration(report.time))} at {report.feed:g} mm/min",
-        f"path        {closing(report.gap)}" + as_programmed * (report.gap != report.programmed_gap),
-        f"block ends  {report.misses} miss, by at most {report.largest_miss} µm; "
-        f"drift at most {report.largest_drift} µm",
-        f"distance    {report.off_curve:.3f} µm from the programmed line or arc, "
-        f"{report.off_path:.3f} µm with the drift before it",
+    stops = Phrase("and-stops", count=report.stops) if report.stops else None
+    as_programmed = Phrase("as-programmed", closing=closing(report.programmed_gap))
+    phrases = [
+        Finding("sim-blocks", count=report.blocks, stops=stops).within(report.name),
+        Phrase(
+            "sim-travel",
+            travel=report.travel / 1000,
+            steps=report.steps,
+            time=duration(report.time),
+            feed=report.feed,
+        ),
+        Phrase(
+            "sim-path",
+            closing=closing(report.gap),
+            more=as_programmed if report.gap != report.programmed_gap else None,
+        ),
+        Phrase("sim-ends", misses=report.misses, largest=report.largest_miss, drift=report.largest_drift),
+        Phrase("sim-distance", curve=report.off_curve, path=report.off_path),
     ]
     if len(report.routes) > 1:
-        lines += [
-            f"  blocks {route.first}-{route.last}: "
-            + (f"moves by {_xy(route.gap)} µm" if route.is_move else closing(route.gap))
-            for route in report.routes
+        phrases += [
+            Phrase("sim-route", first=route.first, last=route.last, what=_what(route)) for route in report.routes
         ]
-    return lines
+    return [*lines, *map(str, phrases)]
+
+
+def _what(route: RouteReport) -> Phrase:
+    """A route, in the report: a move, or whether it closes."""
+    return Phrase("sim-move", by=_xy(route.gap)) if route.is_move else closing(route.gap)
 
 
 def _write_steps(path: str, tapes: list[Tape]) -> None:
@@ -61,7 +71,7 @@ def _write_steps(path: str, tapes: list[Tape]) -> None:
     for tape in tapes:
         # (the pauses of G-code)
         if why := odd_stops(tape):
-            tell(f"skg: {line(why.within(tape.name))}")
+            remark(why.within(tape.name))
 
 
 def _rounded(value: object) -> object:
@@ -133,6 +143,6 @@ def command(
             for each in _lines(report, blocks):
                 show(each)
     for name, why in odd.items():
-        tell(f"skg: {line(why.within(name))}")
+        remark(why.within(name))
     if odd or strict_close and not all(report.closed for report in reports):
         raise SystemExit(1)

@@ -6,6 +6,7 @@ import click
 
 from skg.commands.options import output_option, say
 from skg.files import write_bytes
+from skg.messages.finding import Finding
 from skg.sources.load import load
 from skg.tape.positions import WITHOUT_DRIFT
 from skg.tape.styles import STYLES, to_style
@@ -29,5 +30,5 @@ def command(file: str, output: str, style: str) -> None:
     """
     tape = load(file)
     lost = tape.drift is False and output != "-" and not output.lower().endswith(WITHOUT_DRIFT)
-    say(tape, f"its name says that it is without drift; end that of {output} in {WITHOUT_DRIFT} too" if lost else "")
+    say(tape, Finding("drift-in-name", output=output, ending=WITHOUT_DRIFT) if lost else None)
     write_bytes(output, to_style(tape.items, style))

@@ -14,8 +14,8 @@ import click
 from skg.commands.options import Seconds
 from skg.errors import UserError
 from skg.files import read_bytes
-from skg.messages.finding import Finding
-from skg.terminal import tell
+from skg.messages.finding import Finding, Phrase
+from skg.terminal import remark
 
 if TYPE_CHECKING:
     from skg.machine.teletype import Port, Teletype
@@ -107,7 +107,7 @@ def command(
     from skg.machine.teletype import BrokenOff, Port, Teletype, converse
 
     if unnumbered and not (file and run):
-        raise click.UsageError("--unnumbered goes with --send and --run")
+        raise UserError(Finding("unnumbered-alone"))
     baud = baud or BOARD_BAUD.get(board, DEFAULT_BAUD)
     if punch_port and os.path.realpath(punch_port) == os.path.realpath(port):
         raise UserError(Finding("punch-on-port").within(punch_port))
@@ -115,9 +115,8 @@ def command(
     if patience is None:
         patience = 0.0 if is_attended else UNATTENDED_PATIENCE
     lines = lines_to_type(read_bytes(file), file) if file else []
-    keyed = (
-        [] if is_attended or batch or file == "-" or not sys.stdin else lines_to_type(read_bytes("-"), "standard input")
-    )
+    keyboard = str(Phrase("stdin"))
+    keyed = [] if is_attended or batch or file == "-" or not sys.stdin else lines_to_type(read_bytes("-"), keyboard)
     with contextlib.ExitStack() as stack:
         teletype = Teletype(show_bars=sys.stderr.isatty())
         machine = Port(port, baud, teletype.say, teletype.is_back, patience)
@@ -140,7 +139,7 @@ def command(
                 if lines and not (run and file):
                     send(typist, lines, file or port)
                 if keyed:
-                    send(typist, keyed, "standard input")
+                    send(typist, keyed, keyboard)
                 if not is_attended:
                     is_followed = typist.paced and bool(lines or keyed)
                     is_known = is_followed and not (record and (run or punch_port))
@@ -148,11 +147,11 @@ def command(
                     finish(typist, ports, 0.0 if is_known else quiet, bool(record and run), is_followed)
             except Stopped as reason:
                 stopped = True
-                teletype.say(f"{reason}" + "; nothing more was sent" * bool(lines or keyed))
+                teletype.say(Finding("stopped-sending", why=reason.why) if lines or keyed else reason.why)
             if is_attended:
                 converse(machine, teletype)
         except BrokenOff:
-            teletype.say("broken off")
+            teletype.say(Finding("broken-off"))
             stack.close()
             raise SystemExit(1) from None
     _tell_punched(teletype, record, run)
@@ -171,6 +170,6 @@ def _listen(teletype: Teletype, port: Port, is_punch: bool, stack: contextlib.Ex
 def _tell_punched(teletype: Teletype, record: str | None, run: bool) -> None:
     """Say how many bytes were punched, if any were."""
     if teletype.punched:
-        where = f" to {record}" if record else ""
-        cut_off = "" if teletype.ended or not run else ", the tape is not complete"
-        tell(f"skg term: {teletype.punched} bytes punched{where}{cut_off}")
+        where = Phrase("to-file", file=record) if record else None
+        cut_off = None if teletype.ended or not run else Phrase("tape-incomplete")
+        remark(Finding("bytes-punched", number=teletype.punched, where=where, more=cut_off), "skg term")

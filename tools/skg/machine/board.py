@@ -9,7 +9,7 @@ from typing import NamedTuple
 from skg.errors import UserError
 from skg.machine.emulator import Machine
 from skg.machine.roms import find_rom
-from skg.messages.finding import Finding
+from skg.messages.finding import Finding, Phrase
 from skg.signs import shown, strange, with_signs
 
 #: Cycles after which the operator looks at the paper again; those that a silent machine may wait for a key, and for a
@@ -20,19 +20,13 @@ _ERROR = re.compile(r"ERR (\d\d)(?: LINE (\d+))?")
 _PROMPT = ">"
 
 
-#: Meanings of the errors (language.md, section 6).
-ERRORS = {
-    1: "statement or expression not understood",
-    2: "no such line; RETURN without GOSUB; too many GOSUBs",
-    3: "name without a value; O, X or Y assigned",
-    4: "these kinds cannot be combined, or do not fit the name",
-    5: "number out of range",
-    6: "geometry impossible",
-    7: "the offset leaves nothing of an arc's radius",
-    8: "out of DATA",
-    9: "memory full",
-    10: "tape: a block does not fit, the reader ran out in mid-line, or the operator broke in",
-}
+#: Numbers of the errors (language.md, section 6).
+ERRORS = range(1, 11)
+
+
+def meaning(error: int) -> Phrase:
+    """The meaning of an error."""
+    return Phrase(f"meaning-{error}") if error in ERRORS else Phrase("meaning-unknown")
 
 
 class ErrorLine(NamedTuple):
@@ -55,8 +49,8 @@ class BoardStopped(UserError):
     "break" (it runs into a part of the ROM that the image leaves out, or comes to a breakpoint of `machine`).
     """
 
-    def __init__(self, reason: str, message: str) -> None:
-        super().__init__(message)
+    def __init__(self, reason: str, why: Finding) -> None:
+        super().__init__(why)
         self.reason = reason
 
 
@@ -186,9 +180,7 @@ class Board:
             reason = machine.run(SLICE if end is None else min(SLICE, end - machine.cycles))
             self._report()
             if not machine.printed and machine.cycles > PATIENCE:
-                raise BoardStopped(
-                    "nobody", f"the board printed nothing in {machine.cycles} cycles: is this ROM for another board?"
-                )
+                raise BoardStopped("nobody", Finding("board-mute", cycles=machine.cycles))
             if machine.reader_silence > READER_PATIENCE:
                 return "wait"
             if reason == "cycles" or machine.printed != printed:
@@ -207,27 +199,26 @@ class Board:
             return
         raise BoardStopped(reason, self._why(reason))
 
-    def _why(self, reason: str) -> str:
-        """A message for `BoardStopped`."""
+    def _why(self, reason: str) -> Finding:
+        """The finding of a `BoardStopped`."""
         last = self.paper.rpartition("\n")[2]
         address = self.machine.registers["pc"]
         match reason:
             case "cycles":
-                return f"not done after {self.max_cycles} cycles"
+                return Finding("cycles-used-up", cycles=self.max_cycles)
             case "input":
-                return "INPUT asks, and there is no answer"
+                return Finding("no-answer")
             case "wait" if self.machine.reader_silence > READER_PATIENCE:
-                return "LOAD waits for a tape, and the reader is empty"
+                return Finding("reader-empty")
             case "wait":
-                return f"the board waits for a key, and nobody is there to press it; on its paper: `{last}`"
+                return Finding("board-waits", last=last)
             case "halt":
-                return f"the machine halted at {(address - 1) & 0xFFFF:04X}"
+                return Finding("board-halted", address=(address - 1) & 0xFFFF)
             case "nobody":
                 port, chip = self.machine.nobody
-                trouble = "before it sets up the chip there" if chip else "where this board has no chip"
-                return f"the ROM reads port {port:02X} {trouble}: is it for another board?"
+                return Finding("port-not-set-up" if chip else "port-without-chip", port=port)
             case _:
-                return f"the processor came to {address:04X}, where the ROM image has no code: is the image complete?"
+                return Finding("no-code", address=address)
 
 
 def find_error(lines: Iterable[str]) -> ErrorLine | None:

@@ -22,6 +22,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from skg.errors import UserError
+from skg.messages.finding import Finding
 from skg.native import load
 
 if TYPE_CHECKING:
@@ -72,13 +73,13 @@ def read_rom(path: str) -> tuple[bytes, list[int]]:
         with open(path, "rb") as file:  # noqa: PTH123  (a Path forgets a "/" at the end)
             data = file.read(_ROM_FILE + 1)
     except OSError as error:
-        raise UserError(f"{path}: {error.strerror}") from None
+        raise UserError(Finding("system", detail=error.strerror).within(path)) from None
     if len(data) > _ROM_FILE:
-        raise UserError(f"{path}: more than {_ROM_FILE} bytes")
+        raise UserError(Finding("rom-too-large", most=_ROM_FILE).within(path))
     rom, given, error = (ctypes.create_string_buffer(size) for size in (ROM_SIZE, ROM_SIZE, 512))
     text = ctypes.create_string_buffer(data)
     if _library().image_rom_of(os.fsencode(path), text, len(data), rom, given, ROM_SIZE, error, len(error)):
-        raise UserError(os.fsdecode(error.value))
+        raise UserError(Finding("emulator", detail=os.fsdecode(error.value)))
     return rom.raw, [address for address, is_given in enumerate(given.raw) if not is_given]
 
 

@@ -10,7 +10,7 @@ from itertools import tee
 
 from skg.errors import UserError
 from skg.machine.board import Board, BoardStopped, ErrorLine, find_error
-from skg.messages.finding import Finding
+from skg.messages.finding import Finding, Phrase
 
 #: Cycles after which a program hangs: 140 hours of the 2 MHz board.
 MOST_CYCLES = 10**12
@@ -70,24 +70,21 @@ def as_run(program: str) -> tuple[str, bool]:
     return (f"{program.partition(TAPE_END)[0]}\nEND\n" if rest == "END" else program), rest == "RUN"
 
 
-def given_up(program: str, is_run: bool = True) -> str:
+def given_up(program: str, is_run: bool = True) -> Finding | None:
     """A warning of a program whose lines without numbers begin a route that a numbered one, or RUN, gives up without
-    a block (language.md, section 3); empty where there is none. `is_run`: RUN comes behind its last line."""
+    a block (language.md, section 3); None where there is none. `is_run`: RUN comes behind its last line."""
     opened, mixed = 0, any(map(is_numbered, lines_of(program)))
     lines = re.split(r"\r\n|[\r\n]", program.partition(TAPE_END)[0]) if mixed else []
     for number, line in enumerate([*lines, "RUN"] if is_run else lines, 1):
         bare = _bare(line)
         if opened and (is_numbered(line) or bare == "RUN"):
-            by = f"line {number}" if number <= len(lines) else "RUN"
-            return (
-                f"take care: the route of line {opened} is given up by {by}, the rest of it is not cut: lines without "
-                "numbers end a route with BACK, FROM or END before one with a number comes"
-            )
+            by = Phrase("line-number", line=number) if number <= len(lines) else "RUN"
+            return Finding("route-given-up", line=opened, by=by)
         if bare.startswith(("CUT", "FIT")):
             opened = opened or number
         elif bare.startswith(("BACK", "FROM", "END", "NEW")):
             opened = 0
-    return ""
+    return None
 
 
 def without_numbers(program: str) -> list[str] | None:

@@ -17,9 +17,10 @@ from tqdm import tqdm
 
 from skg.errors import UserError
 from skg.files import board_text
-from skg.machine.board import ERRORS, ErrorLine, is_printed
+from skg.machine.board import ErrorLine, is_printed, meaning
 from skg.machine.feeding import MEMORY_FULL, given_up, is_end, is_numbered, least_ram, without_numbers
 from skg.machine.teletype import Port, Teletype
+from skg.messages.finding import Finding, Phrase
 
 #: Characters that the board takes in a line (language.md, section 3).
 LONGEST = 126
@@ -40,7 +41,11 @@ class TypedLine(NamedTuple):
 
 
 class Stopped(Exception):
-    """Nothing more is sent: why, in one line."""
+    """Nothing more is sent, and why."""
+
+    def __init__(self, why: Finding) -> None:
+        super().__init__(why)
+        self.why = why
 
 
 class _Refused(Exception):
@@ -58,7 +63,8 @@ def lines_to_type(data: bytes, name: str) -> list[TypedLine]:
         # ctrl-U forgets what stands before it, other control characters mean nothing.
         text = re.sub(r"[\x00-\x1f\x7f]", "", raw.rpartition(_CTRL_U.decode())[2])
         if len(text) > LONGEST:
-            raise UserError(f"{name}: line {number}: {len(text)} characters, the board takes {LONGEST}")
+            why = Finding("line-too-long", length=len(text), most=LONGEST)
+            raise UserError(why.within(name, Phrase("line-number", line=number)))
         if text.strip():
             lines.append(TypedLine(number, text))
     return lines
@@ -99,7 +105,7 @@ class Typist:
         losses = teletype.losses
         self.start(text)
         if self.paced and not teletype.wait(lambda: teletype.is_waiting or teletype.losses > losses, self.silence):
-            raise Stopped(f"not back at its prompt, and silent for {self.silence:g} s")
+            raise Stopped(Finding("board-silent", seconds=self.silence))
         if self.paced and teletype.losses > losses:
             self._type_again(text)
         if self.delay:
@@ -111,7 +117,7 @@ class Typist:
     def _type_again(self, text: str) -> None:
         """The port went away when a line was ended: a stored line does not mind to be typed twice."""
         if not is_numbered(text):
-            raise Stopped("the port went away while it was carried out")
+            raise Stopped(Finding("port-lost-in-line"))
         self.begin()
         self.type(text)
 
@@ -127,7 +133,7 @@ class Typist:
                 tries += 1
                 self._slow_down()
             self._forget_line()
-        raise Stopped(f"comes back as {came.decode('ascii', 'replace')!r}: the line to the board loses characters")
+        raise Stopped(Finding("echo-wrong", came=repr(came.decode("ascii", "replace"))))
 
     def _is_echoed(self, data: bytes) -> bool:
         """Type characters, and see whether the paper has them then."""
@@ -145,7 +151,7 @@ class Typist:
         """A board that cannot take a line at once is given it character by character."""
         if not self.one_by_one:
             self.one_by_one = True
-            self.teletype.say("the line to the board loses characters: each is waited for from here on")
+            self.teletype.say(Finding("characters-lost"))
 
     def _forget_line(self) -> None:
         """ctrl-U, and the new line that it is answered with."""
@@ -153,10 +159,7 @@ class Typist:
         before = teletype.received
         self._put(_CTRL_U)
         if not teletype.wait(lambda: teletype.received > before and not teletype.line, _ANSWER):
-            raise Stopped(
-                "the board does not answer: is it on, at its prompt (ctrl-C ends a program), and at this --baud? "
-                "(--pace none sends all the same)"
-            )
+            raise Stopped(Finding("board-no-answer"))
 
     def _put(self, data: bytes) -> None:
         """Send characters, unless XOFF holds them."""
@@ -174,10 +177,9 @@ def send(typist: Typist, lines: Sequence[TypedLine], name: str) -> None:
         typist.begin()
         _type_all(typist, lines, name)
     except _Refused as refused:
-        more = ""
-        if refused.error.number == MEMORY_FULL and is_numbered(refused.line.text):
-            more = ": --run sends it without its line numbers where it does not fit"
-        raise Stopped(_refusal(refused, name, typist.paced) + more) from None
+        is_full = refused.error.number == MEMORY_FULL and is_numbered(refused.line.text)
+        more = Phrase("run-sends-without-numbers") if is_full else None
+        raise Stopped(_refusal(refused, name, typist.paced, more)) from None
 
 
 def make_tape(typist: Typist, lines: list[TypedLine], name: str, unnumbered: bool, is_attended: bool) -> None:
@@ -194,10 +196,7 @@ def make_tape(typist: Typist, lines: list[TypedLine], name: str, unnumbered: boo
     if stored and unnumbered:
         lines, stored = _plain(program, name), False
     if stored and typist.paced and not _store(typist, lines, name, program):
-        typist.teletype.say(
-            f"{name} does not fit in the board's memory (ERR 09): sent again without its line numbers, "
-            "each line is carried out as it comes"
-        )
+        typist.teletype.say(Finding("sent-without-numbers").within(name))
         lines, stored = _plain(program, name), False
     try:
         if not stored or not typist.paced:
@@ -210,16 +209,14 @@ def make_tape(typist: Typist, lines: list[TypedLine], name: str, unnumbered: boo
         elif not any(is_end(line.text) for line in lines[-1:]):
             _type_all(typist, [TypedLine(0, "END")], name)
     except _Refused as refused:
-        more = ""
-        if refused.error.number == MEMORY_FULL:
-            more = f": {_too_large(program)}"
-        raise Stopped(_refusal(refused, name, typist.paced) + more) from None
+        more = _too_large(program) if refused.error.number == MEMORY_FULL else None
+        raise Stopped(_refusal(refused, name, typist.paced, more)) from None
 
 
 def _say_given_up(typist: Typist, lines: Sequence[TypedLine], name: str, is_run: bool) -> None:
     texts = {line.number: line.text for line in lines}
     if lost := given_up("\n".join(texts.get(number, "") for number in range(1, max(texts, default=0) + 1)), is_run):
-        typist.teletype.say(f"{name}: {lost}")
+        typist.teletype.say(lost.within(name))
 
 
 def finish(typist: Typist, ports: Sequence[Port], quiet: float, needs_tape: bool, is_followed: bool) -> None:
@@ -231,19 +228,19 @@ def finish(typist: Typist, ports: Sequence[Port], quiet: float, needs_tape: bool
     teletype = typist.teletype
     if teletype.asks:
         typist.port.write(_CTRL_C)
-        raise Stopped("INPUT asks, and there is no answer: broken off with ctrl-C")
+        raise Stopped(Finding("input-broken-off"))
     teletype.wait(lambda: teletype.ended, quiet)
     for port in ports:
         if port.is_away:
-            raise Stopped(f"{port.name} is not back: what came meanwhile is lost")
+            raise Stopped(Finding("port-not-back", port=port.name))
     if teletype.error:
-        raise Stopped(_meaning(teletype.error))
+        raise Stopped(Finding("err", error=teletype.error.words, meaning=meaning(teletype.error.number)))
     if needs_tape and not teletype.punched:
-        raise Stopped("nothing was punched on this port: has the punch one of its own, for --punch-port?")
+        raise Stopped(Finding("nothing-punched"))
     if needs_tape and not teletype.ended:
-        raise Stopped("the tape's DD has not come")
+        raise Stopped(Finding("no-dd-came"))
     if teletype.gaps or teletype.losses and not is_followed:
-        raise Stopped("a port went away in between: what came meanwhile is lost")
+        raise Stopped(Finding("port-was-away"))
 
 
 def _store(typist: Typist, lines: list[TypedLine], name: str, program: str) -> bool:
@@ -257,12 +254,12 @@ def _store(typist: Typist, lines: list[TypedLine], name: str, program: str) -> b
             if refused.error.number != MEMORY_FULL:
                 raise Stopped(_refusal(refused, name)) from None
             if without_numbers(program) is None:
-                raise Stopped(f"{_refusal(refused, name)}: {_too_large(program)}") from None
+                raise Stopped(_refusal(refused, name, more=_too_large(program))) from None
             return False
         if typist.teletype.losses == losses:
             return True
-        typist.teletype.say("sent again from its first line: board contents unknown")
-    raise Stopped("the port goes away again and again")
+        typist.teletype.say(Finding("sent-again"))
+    raise Stopped(Finding("port-unsteady"))
 
 
 def _clear(typist: Typist) -> None:
@@ -271,7 +268,7 @@ def _clear(typist: Typist) -> None:
     typist.type("NEW")
     if typist.teletype.asks:
         typist.port.write(_CTRL_C)
-        raise Stopped("the board was in a program that asks: broken off, try again")
+        raise Stopped(Finding("board-asked"))
 
 
 def _type_all(typist: Typist, lines: Sequence[TypedLine], name: str) -> None:
@@ -289,36 +286,34 @@ def _type_all(typist: Typist, lines: Sequence[TypedLine], name: str) -> None:
             try:
                 error = typist.type(line.text)
             except Stopped as stopped:
-                raise Stopped(f"{_place(line, name)}: {stopped}") from None
+                raise Stopped(stopped.why.within(*_place(line, name))) from None
             if error:
                 raise _Refused(line, error)
             if teletype.losses > losses and not is_numbered(line.text):
-                raise Stopped(f"{_place(line, name)}: the port went away: what came of it is not known")
+                raise Stopped(Finding("port-lost-at-line").within(*_place(line, name)))
             bar.update(len(line.text))
 
 
 def _plain(program: str, name: str) -> list[TypedLine]:
     plain = without_numbers(program)
     if plain is None:
-        raise Stopped(f"{name}: not without its line numbers: it jumps, asks or has DATA, or has lines without numbers")
+        raise Stopped(Finding("needs-numbers").within(name))
     # Their numbers in the file are not needed: each line is named by its text.
     return [TypedLine(0, text) for text in plain]
 
 
-def _place(line: TypedLine, name: str) -> str:
-    return f"{name}, line {line.number}" if line.number else f"{name}, at `{line.text[:40]}`"
+def _place(line: TypedLine, name: str) -> tuple[str | Phrase, ...]:
+    return name, Phrase("line-number", line=line.number) if line.number else Phrase("at-line", text=line.text[:40])
 
 
-def _refusal(refused: _Refused, name: str, paced: bool = True) -> str:
+def _refusal(refused: _Refused, name: str, paced: bool = True, more: Phrase | None = None) -> Finding:
     """The board's error, its place, and its meaning."""
-    where = _place(refused.line, name) if paced else f"{name}, at or before line {refused.line.number}"
-    return f"{where}: {_meaning(refused.error)}"
+    before = name, Phrase("before-line", line=refused.line.number)
+    error = refused.error
+    why = Finding("err-and", error=error.words, meaning=meaning(error.number), more=more)
+    return why.within(*(_place(refused.line, name) if paced else before))
 
 
-def _meaning(error: ErrorLine) -> str:
-    return f"{error.words}, {ERRORS.get(error.number, 'of a newer ROM')}"
-
-
-def _too_large(program: str) -> str:
+def _too_large(program: str) -> Phrase:
     least = least_ram(program)
-    return f"it takes {least} KiB of RAM" if least else "no memory is large enough"
+    return Phrase("takes-ram", least=least) if least else Phrase("no-ram-enough")

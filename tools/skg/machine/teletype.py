@@ -24,7 +24,8 @@ from tqdm import tqdm
 from skg.errors import UserError
 from skg.machine.board import ErrorLine, find_error
 from skg.machine.keyboard import ESCAPE, TERMINAL_TROUBLE
-from skg.messages.render import text
+from skg.messages.finding import Finding, Phrase
+from skg.messages.render import line as line_of
 from skg.signs import Keys
 
 XON, XOFF, DC2, DC4 = 0x11, 0x13, 0x12, 0x14
@@ -77,7 +78,7 @@ class Port:
     """
 
     def __init__(
-        self, name: str, baud: int, say: Callable[[str], None], on_back: Callable[[], None], patience: float
+        self, name: str, baud: int, say: Callable[[Finding], None], on_back: Callable[[], None], patience: float
     ) -> None:
         self.name = name
         self.say = say
@@ -90,7 +91,7 @@ class Port:
         try:
             self.serial = self._open()
         except _TROUBLE as error:
-            raise UserError(f"{name}: {_reason(error)}") from None
+            raise UserError(Finding("system", detail=_reason(error)).within(name)) from None
 
     def _open(self) -> serial.SerialBase:
         return serial.serial_for_url(self.name, **self.settings)
@@ -101,7 +102,7 @@ class Port:
             if self.closing or self.serial is not broken:
                 return
             self.is_away = True
-            self.say(f"{self.name} went away ({_reason(error)}), trying again")
+            self.say(Finding("port-went-away", port=self.name, detail=_reason(error)))
             with contextlib.suppress(*_TROUBLE):
                 broken.close()
             since = time.monotonic()
@@ -110,10 +111,10 @@ class Port:
                     self.serial = self._open()
                 except _TROUBLE as again:
                     if self.patience and time.monotonic() - since > self.patience:
-                        raise UserError(f"{self.name}: {_reason(again)}, given up") from None
+                        raise UserError(Finding("port-given-up", detail=_reason(again)).within(self.name)) from None
                     time.sleep(_RETRY)
                 else:
-                    self.say(f"{self.name} is back")
+                    self.say(Finding("port-is-back", port=self.name))
                     self.on_back()
                     self.is_away = False
                     return
@@ -148,10 +149,10 @@ class Port:
             self.serial.close()
 
 
-def _reason(error: Exception) -> str:
+def _reason(error: Exception) -> str | Phrase:
     """An error's own words, without the wrapping that pyserial puts around them."""
     if isinstance(cause := error.__context__, TERMINAL_TROUBLE):
-        return "no serial port" if cause.args[0] == errno.ENOTTY else os.strerror(cause.args[0]).lower()
+        return Phrase("no-serial-port") if cause.args[0] == errno.ENOTTY else os.strerror(cause.args[0]).lower()
     if isinstance(error, OSError) and error.errno:
         return os.strerror(error.errno).lower()
     return str(error).splitlines()[0] if str(error) else type(error).__name__
@@ -188,9 +189,9 @@ class Teletype:
     show_bars: bool = False
     tail: bytes = b""
 
-    def say(self, message: str) -> None:
+    def say(self, finding: Finding) -> None:
         """A line from `skg term` itself, on stderr."""
-        tqdm.write(f"skg term: {message}".replace("\n", "\r\n") + "\r", file=sys.stderr)
+        tqdm.write(f"skg term: {line_of(finding)}\r", file=sys.stderr)
 
     def paper(self, data: bytes) -> None:
         """Print what the port typed."""
@@ -218,7 +219,7 @@ class Teletype:
             # Nobody reads the paper any more: the tape is made all the same.
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         except OSError as error:
-            raise UserError(f"standard output: {error.strerror}") from None
+            raise UserError(Finding("system", detail=error.strerror).within(Phrase("stdout"))) from None
 
     def punch(self, data: bytes) -> None:
         """Record what the port punched."""
@@ -230,7 +231,7 @@ class Teletype:
             try:
                 self.record.write(data)
             except OSError as error:
-                raise UserError(f"{self.record.name}: {error.strerror}") from None
+                raise UserError(Finding("system", detail=error.strerror).within(self.record.name)) from None
         if self.show_bars:
             if self.punching is None:
                 self.punching = tqdm(unit="block", desc="punching", leave=False)
@@ -304,7 +305,7 @@ def converse(port: Port, teletype: Teletype) -> None:
         typed, escape, _ = teletype.keys().partition(bytes([ESCAPE]))
         sent, refused = keys.feed(typed)
         for finding in refused:
-            teletype.say(text(finding))
+            teletype.say(finding)
         port.write(sent)
         if escape:
             return

@@ -22,6 +22,12 @@ class Phrase:
         object.__setattr__(self, "code", code)
         object.__setattr__(self, "values", tuple(values.items()))
 
+    def __str__(self) -> str:
+        """The sentence in this process's language; a finding's with its source."""
+        from skg.messages.render import line, text
+
+        return line(self) if isinstance(self, Finding) else text(self)
+
     def __getitem__(self, name: str) -> Any:  # noqa: ANN401
         """A value by its name."""
         return dict(self.values)[name]

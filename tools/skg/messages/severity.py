@@ -57,6 +57,7 @@ _CARE = frozenset(
         "outlines-in-open-line",
         "part-in-pieces",
         "parts-free",
+        "route-given-up",
         "side-of-openings",
         "tabs-proud",
         "side-of-outlines",

@@ -9,6 +9,7 @@ import ctypes
 from pathlib import Path
 
 from skg.errors import UserError
+from skg.messages.finding import Finding
 
 HERE = Path(__file__).resolve().parent
 CHECKOUT = HERE.parents[2]
@@ -22,5 +23,5 @@ def load(name: str) -> ctypes.CDLL:
     try:
         return ctypes.CDLL(str(path))
     except OSError as error:
-        reason = "not built, run `make venv`" if not path.exists() else f"unfit ({error})"
-        raise UserError(f"{path}: {reason}") from None
+        why = Finding("library-unfit", detail=str(error)) if path.exists() else Finding("library-missing")
+        raise UserError(why.within(str(path))) from None

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 from skg.errors import UserError
+from skg.messages.finding import Finding, Phrase
 from skg.ref import real
 from skg.ref.cutter import Cutter
 from skg.ref.drift import DriftlessPunch
@@ -423,7 +424,8 @@ def _lines(source: str) -> list[str]:
     text = source.split("\x1a")[0]
     for number, line in enumerate(re.split(r"\r\n|[\r\n]", text), start=1):
         if not line.isascii():
-            raise UserError(f"line {number} of the file: {line.strip()!r} is not plain ASCII")
+            odd = Finding("line-not-ascii", text=repr(line.strip()))
+            raise UserError(odd.within(Phrase("line-number", line=number)))
     return [line for line in map(_typed, re.split(r"[\r\n]", text)) if line.strip()]
 
 

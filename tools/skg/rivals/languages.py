@@ -8,6 +8,7 @@ from pathlib import Path
 from skg.errors import UserError
 from skg.file_type import refuse_others
 from skg.files import read_bytes, without_filling
+from skg.messages.finding import Finding, Phrase
 
 #: A rival's ending -> its language, and the module that makes SKG of it, loaded when it is needed: its `translate`
 #: takes the text and the file's name.
@@ -29,19 +30,20 @@ def translated(name: str, ending: str | None = None) -> str:
     `ending` says which rival's, where the name does not.
     """
     language, module = RIVALS[ending or Path(name).suffix.lower()]
-    expected = f"a program in {language}"
+    expected = Phrase("file-program-in", language=language)
     data = without_filling(read_bytes(name))
     refuse_others(data, name, expected)
     if not data.strip():
-        raise UserError(f"{name}: empty, expected {expected}")
+        raise UserError(Finding("empty-program", expected=expected).within(name))
     try:
         return import_module(module).translate(data.decode("utf-8-sig"), Path(name).name)
     except UnicodeDecodeError as error:
         good = data[: error.start].decode("utf-8-sig")
         column = len(good) - good.rfind("\n")
-        raise UserError(f"{name}:{good.count(chr(10)) + 1}:{column}: not UTF-8") from None
+        raise UserError(Finding("not-in-utf-8").within(f"{name}:{good.count(chr(10)) + 1}:{column}")) from None
     except RivalFault as fault:
-        raise UserError(f"{name}:{fault}") from None
+        place, _, detail = str(fault).partition(": ")
+        raise UserError(Finding("rival", detail=detail).within(f"{name}:{place}")) from None
 
 
 def is_rival(name: str) -> bool:

@@ -17,10 +17,10 @@ from skg.file_type import GCODE, PROGRAM, refuse_others
 from skg.files import board_text, in_ascii, read_bytes, without_filling, without_mark
 from skg.geometry.piece import Piece
 from skg.geometry.plane import XY
-from skg.machine.board import BoardStopped, find_error
+from skg.machine.board import BoardStopped, ErrorLine, find_error, meaning
 from skg.machine.feeding import MEMORY_FULL, MOST_CYCLES, MOST_RAM, as_run, feed, given_up, least_ram, too_large
 from skg.machine.roms import rom_path
-from skg.messages.finding import Finding
+from skg.messages.finding import Finding, Phrase
 from skg.rivals.languages import is_program, is_rival, translated
 from skg.sources.milling import MILL_ROM, is_milling
 from skg.tape import text as tapes
@@ -29,7 +29,7 @@ from skg.tape.dialect import GcodeDialect
 from skg.tape.gcode import is_gcode
 from skg.tape.gcode_program import GcodeProgram
 from skg.tape.gcode_reader import read as read_gcode
-from skg.terminal import tell
+from skg.terminal import remark
 
 if TYPE_CHECKING:
     from skg.ref import Result
@@ -76,8 +76,8 @@ def iso_program(name: str, skg80: str | None = None, dialect: GcodeDialect | Non
 def iso_of(text: str, name: str, dialect: GcodeDialect | None = None) -> GcodeProgram:
     """Read G-code; what it does not tell and is guessed, and what of it is no cut, is said on standard error."""
     program = read_gcode(text, name, dialect)
-    for remark in (*program.guesses, *program.notes):
-        tell(f"skg: {name}: {remark}")
+    for note in (*program.guesses, *program.notes):
+        remark(note.within(name))
     return program
 
 
@@ -106,8 +106,11 @@ def iso_text(name: str, skg80: str | None = None, dialect: GcodeDialect | None =
     text = _milling_text(name)
     if text is None:
         return None
-    by = "the mill ROM" if skg80 is None else "the reference" if skg80 == "reference" else f"{skg80}, the mill ROM"
-    tell(f"skg: {name}: a milling program, run by {by}")
+    if skg80 is None:
+        note = Finding("milling-by-rom")
+    else:
+        note = Finding("milling-by-reference") if skg80 == "reference" else Finding("milling-by", emulator=skg80)
+    remark(note.within(name))
     _say_given_up(name, text)
     return _tape_of(name, text, skg80, mills=True).decode("ascii")
 
@@ -145,7 +148,7 @@ def drawn_routes(name: str, program: str, runs: bool, mills: bool) -> Routes:
     drawn, result = routes_of(program, runs, mills, is_drawn=True)
     if result.error:
         number, line = result.error
-        where = f" LINE {line}" if line is not None else ""
+        where = None if line is None else Phrase("of-line", line=line)
         raise UserError(Finding("draws-no-contour", number=number, where=where).within(name))
     return drawn
 
@@ -174,7 +177,7 @@ def program_text(name: str) -> str:
 
 def _say_given_up(name: str, text: str) -> None:
     if lost := given_up(text):
-        tell(f"skg: {name}: {lost}")
+        remark(lost.within(name))
 
 
 def _tape_of(name: str, text: str, skg80: str | None, mills: bool = False) -> bytes:
@@ -196,9 +199,9 @@ def _run_rom(name: str, text: str, rom: str) -> bytes:
                 raise too_large(name, text, MOST_RAM, rom)
             if not fed.error:
                 least = least_ram(text, rom)
-                tell(f"skg: {name}: takes {least} KiB of RAM, more than the board's 8")
+                remark(Finding("takes-more-ram", least=least).within(name))
     except BoardStopped as stopped:
-        raise UserError(f"{name}: {stopped}") from None
+        raise UserError(stopped.finding.within(name)) from None
     if fed.error:
         if fed.error.line is None:
             # The board shows the line that it does not understand, the reference says its number.
@@ -227,14 +230,16 @@ def _run_emulator(name: str, text: str, skg80: str, mills: bool) -> bytes:
             raise too_large(name, text, 8, MILL_ROM if mills else "standard")
         if error:
             raise _failure(name, text, *error)
-        raise UserError(f"{name}: {last[0] if last else f'{skg80} ended with {done.returncode}'}")
+        ended = Finding("emulator-ended", emulator=skg80, code=done.returncode)
+        raise UserError((Finding("emulator", detail=last[0]) if last else ended).within(name))
     return done.stdout
 
 
 def _failure(name: str, text: str, number: int, line: int | None) -> UserError:
-    where = f" LINE {line}" if line is not None else ""
     contour = _contour_at(text, line) if line is not None else ""
-    return UserError(f"{name}: ERR {number:02d}{where}" + (f", in contour {contour}" if contour else ""))
+    where = Phrase("in-contour", contour=contour) if contour else None
+    error = ErrorLine(number, line).words
+    return UserError(Finding("program-refused", error=error, meaning=meaning(number), where=where).within(name))
 
 
 def _contour_at(text: str, line: int) -> str:

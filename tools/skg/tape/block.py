@@ -13,6 +13,8 @@ from functools import cached_property
 from itertools import zip_longest
 from math import atan2, copysign, floor, hypot, isqrt, pi
 
+from skg.messages.finding import Finding, Phrase
+
 #: No x, y or J has more digits.
 MAX_DIGITS = 8
 #: Most that an arc may go on past a full circle, as its ends are rounded (tape-3b.md) or the controller's position.
@@ -197,58 +199,54 @@ class Block:
         """Length of the programmed line or arc in micrometres."""
         return hypot(self.x, self.y) * (1 if self.is_line else abs(self.sweep))
 
-    def problems(self, positions: str = "auto") -> list[str]:
-        """Return the errors of this block in words; empty when it is sound.
+    def problems(self, positions: str = "auto") -> list[Finding]:
+        """Return the errors of this block; empty when it is sound.
 
         `positions`: "programmed" on a tape with drift, "machine" on one without, which count J in their own way
         (docs/drift.md); "auto": either is right.
         """
         if self.x == 0 and self.y == 0:
-            return ["x and y are both 0"]
+            return [Finding("block-nowhere")]
         return self._line_problems() if self.is_line else self._arc_problems(positions)
 
     def _beside(self, distance: int) -> int:
         """The other coordinate of a place on an arc's circle, to the nearest µm, without its sign."""
         return round_sqrt(max(0, self.x**2 + self.y**2 - distance**2))
 
-    def _line_problems(self) -> list[str]:
+    def _line_problems(self) -> list[Finding]:
         problems = []
         along = ("x", self.x) if self.quadrant % 2 else ("y", self.y)
         if along[1] == 0:
-            problems.append(f"{self.code} needs {along[0]} > 0: wrong quadrant for its x and y")
+            problems.append(Finding("block-quadrant", word=self.code, side=along[0]))
         longer = max(self.x, self.y)
         if self.j != longer:
-            relation = "less" if self.j < longer else "more"
-            problems.append(f"J = {self.j} is {relation} than the larger of x and y, {longer}")
+            problems.append(Finding("line-j-less" if self.j < longer else "line-j-more", j=self.j, longer=longer))
         axis = _line_axis(self.x, self.y, self.quadrant)
         if self.axis != axis:
-            problems.append(f"G{self.axis} counts the wrong axis, expected G{axis}")
+            problems.append(Finding("line-axis", axis=self.axis, expected=axis))
         return problems
 
-    def _arc_problems(self, positions: str) -> list[str]:
+    def _arc_problems(self, positions: str) -> list[Finding]:
         problems = []
         # The coordinate that shrinks in a quadrant cannot be 0 at the start: that is the next quadrant.
         axis = "X" if is_decreasing("X", self.quadrant, self.sense) else "Y"
         if (self.x if axis == "X" else self.y) == 0:
-            problems.append(f"{self.code} needs {axis.lower()} > 0: wrong quadrant for its x and y")
+            problems.append(Finding("block-quadrant", word=self.code, side=axis.lower()))
         counts = {"programmed": [self.radius], "machine": [max(self.turn, 1)]}
         radii = counts.get(positions, [self.radius, max(self.turn, 1)])
         if self.j == 0:
-            problems.append("J is 0")
+            problems.append(Finding("arc-j-zero"))
         elif self.j > 4 * max(self.radius, self.turn) + MAX_OVERLAP:
-            problems.append(f"J = {self.j} is more than a full circle, {4 * self.radius}")
+            problems.append(Finding("arc-j-beyond", j=self.j, full=4 * self.radius))
         elif self.is_full_circle:
             if self.j not in [4 * radius for radius in radii]:
-                problems.append(f"J = {self.j} is a full circle by the other count, expected {4 * radii[0]}")
+                problems.append(Finding("arc-j-other-count", j=self.j, expected=4 * radii[0]))
         else:
             # The counts of a tape without drift differ by up to 4 (docs/drift.md): one of the two must fit.
             ends = [self.count_end(radius)[0] for radius in radii]
             if all(distance > self._beside(distance) + 3 for distance in ends):
                 axis = "Y" if self.axis == "X" else "X"
-                problems.append(
-                    f"J = {self.j} ends at {self.axis.lower()} = {ends[0]}, the larger coordinate "
-                    f"of the end: expected G{axis}"
-                )
+                problems.append(Finding("arc-axis", j=self.j, side=self.axis.lower(), end=ends[0], expected=axis))
         return problems
 
 
@@ -263,8 +261,8 @@ class Stop:
 class Tape:
     """A tape: its blocks, and its stops in order; `name` is where it came from.
 
-    `drift`: whether it is a tape with drift, None when it does not say so; `drift_by` is what says so, in words (empty:
-    it was made just now). `notes`: what there is to say of how it was read. `start`: where the wire starts on the
+    `drift`: whether it is a tape with drift, None when it does not say so; `drift_by` is what says so (None: it
+    was made just now). `notes`: what there is to say of how it was read. `start`: where the wire starts on the
     drawing, mm. `kept`: what was worked out of the blocks (`skg.tape.columns.kept`).
     """
 
@@ -272,8 +270,8 @@ class Tape:
     blocks: Sequence[Block]
     stops: tuple[Stop, ...] = ()
     drift: bool | None = None
-    drift_by: str = ""
-    notes: tuple[str, ...] = ()
+    drift_by: Phrase | None = None
+    notes: tuple[Finding, ...] = ()
     start: tuple[float, float] = (0.0, 0.0)
     kept: dict[str, object] = field(default_factory=dict, compare=False, repr=False)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
+from skg.messages.finding import Finding
 from skg.tape.dialect import GcodeDialect, Lines
 from skg.tape.gcode_line import Findings, Misread, Modes
 
@@ -13,7 +14,7 @@ _NUMBER = re.compile(r"N\s*\d+\s*", re.I)
 _STOP, _END = "M0", "M30"
 
 
-def understood(text: str, dialect: GcodeDialect) -> tuple[str, tuple[str, ...]]:
+def understood(text: str, dialect: GcodeDialect) -> tuple[str, tuple[Finding, ...]]:
     """A program of a dialect without the lines that only this has, as many lines; and notes on it."""
     lines = [_NUMBER.sub("", line.strip(), count=1) for line in text.splitlines()]
     first = _after(lines, (*dialect.head, *dialect.start))
@@ -35,8 +36,7 @@ def understood(text: str, dialect: GcodeDialect) -> tuple[str, tuple[str, ...]]:
             is_offset, lines[index] = True, _plain(lines[index])[leading.end() :]
         else:
             lines[index] = words.get(_plain(lines[index]), lines[index])
-    note = "the control puts the wire aside by its offsets: this is the contour, without them"
-    return "\n".join(lines), (note,) * is_offset
+    return "\n".join(lines), (Finding("offsets-in-control"),) * is_offset
 
 
 def _plain(line: str) -> str:

@@ -12,6 +12,9 @@ from dataclasses import dataclass, field
 from decimal import Decimal
 from typing import NamedTuple
 
+from skg.messages.finding import Finding, Phrase
+from skg.messages.render import data
+from skg.messages.render import text as sentence
 from skg.tape.block import MAX_DIGITS
 from skg.tape.gcode_tool import OUTPUTS, TURNS
 
@@ -52,8 +55,6 @@ HOMES, MACHINE = {Decimal(28), Decimal(30)}, Decimal(53)
 AWAY = {*HOMES, MACHINE}
 #: M words of boards for printers: from the first on, and these. The words behind one are its own (`M92 X80`: steps).
 BOARDS, BOARD = 100, {17, 18, 84, 92}
-#: G words that a message names as expected.
-EXPECTED = "G00…G03, G17…G21, G40, G90, G91, G92 or one that does not move"
 #: µm in a number of each unit.
 INCH, MILLIMETRE = Decimal(25400), Decimal(1000)
 
@@ -61,9 +62,9 @@ INCH, MILLIMETRE = Decimal(25400), Decimal(1000)
 class Misread(Exception):
     """A text that cannot be read, at a column, from 1."""
 
-    def __init__(self, column: int, message: str) -> None:
-        super().__init__(message)
-        self.column = column
+    def __init__(self, column: int, why: Finding) -> None:
+        super().__init__(why)
+        self.column, self.why = column, why
 
 
 @dataclass(frozen=True)
@@ -75,12 +76,21 @@ class GcodeFinding:
 
     line: int
     column: int
-    message: str
+    why: Finding
     is_fatal: bool = field(default=True, repr=False)
     is_guess: bool = field(default=False, repr=False)
 
-    def __str__(self) -> str:
-        return f"line {self.line}, column {self.column}: {self.message}"
+    @property
+    def finding(self) -> Finding:
+        """The finding with its place."""
+        return self.why.within(Phrase("at-column", line=self.line, column=self.column))
+
+    def plain(self) -> dict[str, object]:
+        """The finding for other programs."""
+        known = data(self.why)
+        place = {"line": self.line, "column": self.column, "message": sentence(self.why)}
+        kind = {"is_fatal": self.is_fatal, "is_guess": self.is_guess}
+        return place | kind | {name: known[name] for name in ("code", "values")}
 
 
 class Findings:
@@ -92,11 +102,11 @@ class Findings:
 
     def misread(self, error: Misread) -> None:
         """Add an error: a text that cannot be read."""
-        self.all.append(GcodeFinding(self.line, error.column, str(error)))
+        self.all.append(GcodeFinding(self.line, error.column, error.why))
 
-    def warn(self, column: int, message: str, is_guess: bool = False) -> None:
+    def warn(self, column: int, why: Finding, is_guess: bool = False) -> None:
         """Add a warning: a text that stops some controls, or might be meant otherwise."""
-        self.all.append(GcodeFinding(self.line, column, message, is_fatal=False, is_guess=is_guess))
+        self.all.append(GcodeFinding(self.line, column, why, is_fatal=False, is_guess=is_guess))
 
 
 class Word(NamedTuple):
@@ -115,7 +125,7 @@ def words(text: str) -> Iterator[Word]:
     while index < end:
         match = _WORD.match(text, index)
         if not match:
-            raise Misread(index + 1, f"expected a word such as G01 or X-9900, found {text[index]!r}")
+            raise Misread(index + 1, Finding("gcode-no-word", found=repr(text[index])))
         letter, number = match.groups()
         if letter != "N":
             word = Word(letter, Decimal(number), "." in number, index + 1)
@@ -123,6 +133,11 @@ def words(text: str) -> Iterator[Word]:
             if letter == "M" and word.number in _TEXTS:
                 return
         index = match.end()
+
+
+def _both(letter: str, first: Decimal, other: Decimal) -> Finding:
+    """Two words of which a line has one at most."""
+    return Finding("gcode-both", first=f"{letter}{first:f}", other=f"{letter}{other:f}")
 
 
 @dataclass
@@ -169,12 +184,12 @@ class Modes:
         for word in words(text):
             letter = word.letter
             if self.ended and (letter in PLACES or letter == "G"):
-                raise Misread(word.column, "expected nothing after M02")
+                raise Misread(word.column, Finding("gcode-after-end"))
             if is_board and letter not in "GMS":
                 continue
             if letter in VALUES:
                 if letter in line.values:
-                    raise Misread(word.column, f"{letter} stands here twice")
+                    raise Misread(word.column, Finding("gcode-twice", letter=letter))
                 line.values[letter] = word
             elif letter == "G":
                 self._preparatory(word, line)
@@ -189,7 +204,7 @@ class Modes:
             elif letter == "Q" and (BLEND in line.codes or self.motion in CYCLES):
                 pass
             elif letter not in SILENT and not (letter in OTHERS and not word.number):
-                raise Misread(word.column, f"{letter} is not known here, expected G, M, X, Y, Z, I, J or R")
+                raise Misread(word.column, Finding("gcode-letter", letter=letter))
         if line.output is None:  # another control's words
             line.turns = [code for code in line.turns if code not in OUTPUTS]
         if NO_MOTION in line.codes and not MOTIONS.intersection(line.codes):
@@ -200,7 +215,7 @@ class Modes:
         """Carry out a G word."""
         for code in line.codes:
             if any({code, word.number} <= group for group in GROUPS):
-                raise Misread(word.column, f"G{code:f} and G{word.number:f} in one line")
+                raise Misread(word.column, _both("G", code, word.number))
         line.codes.append(word.number)
         match word.number:
             case n if n in WAYS:
@@ -217,22 +232,22 @@ class Modes:
                 self.unit = INCH if word.number == 20 else MILLIMETRE
             case n if n in OFFSETS:
                 if self.offset not in (None, n):
-                    raise Misread(word.column, f"G{n:f} after G{self.offset:f}: how far apart the two are is not known")
+                    raise Misread(word.column, Finding("gcode-offset", word=f"G{n:f}", before=f"G{self.offset:f}"))
                 self.offset = n
             case n if n in MODES or n in HOMES or n == MACHINE:
                 pass
             case n:
-                raise Misread(word.column, f"G{n:f} is not known, expected {EXPECTED}")
+                raise Misread(word.column, Finding("gcode-word", word=f"G{n:f}"))
 
     def _miscellaneous(self, word: Word, line: GcodeLine) -> None:
         """Carry out an M word."""
         if word.number in TURNS and TURNS.intersection(line.turns):
-            raise Misread(word.column, f"M{line.turns[0]:f} and M{word.number:f} in one line")
+            raise Misread(word.column, _both("M", line.turns[0], word.number))
         line.turns.append(word.number)
         if word.number in (2, 30):
             self.ended = True
         elif word.number in CALLS:
-            raise Misread(word.column, f"M{word.number:f}: a sub-program is not known here")
+            raise Misread(word.column, Finding("gcode-call", word=f"M{word.number:f}"))
         line.is_stop |= word.number in (0, 1)
 
     def value(self, values: dict[str, Word], letter: str, default: Decimal = Decimal(0)) -> Decimal:
@@ -245,12 +260,10 @@ class Modes:
             self.has_wholes |= bool(word.number) and not word.is_decimal
             if not self.warned_unit:
                 self.warned_unit = True
-                how = "all numbers are taken for mm, since some have a point"
-                if self.untold is None:
-                    how = "a number with a point is taken for mm, a whole one for µm"
-                self.findings.warn(word.column, f"no G20 or G21 yet: {how}", is_guess=True)
+                code = "gcode-units-by-point" if self.untold is None else "gcode-units-mm"
+                self.findings.warn(word.column, Finding(code), is_guess=True)
         if word.number.adjusted() >= MAX_DIGITS:
-            raise Misread(word.column, f"{letter} has more than {MAX_DIGITS} digits in front of its point")
+            raise Misread(word.column, Finding("gcode-digits", letter=letter, most=MAX_DIGITS))
         unit = self.unit or self.untold or (MILLIMETRE if word.is_decimal else Decimal(1))
         return word.number * unit
 
@@ -265,7 +278,6 @@ class Modes:
             return here
         if self.absolute is None:
             self.absolute = True
-            message = "no G90 or G91 yet: places are taken for absolute, as G90 says"
-            self.findings.warn(values[letter].column, message, is_guess=True)
+            self.findings.warn(values[letter].column, Finding("gcode-absolute"), is_guess=True)
         value = self.value(values, letter)
         return value + origin if self.absolute else here + value

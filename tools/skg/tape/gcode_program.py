@@ -9,7 +9,7 @@ from decimal import ROUND_HALF_UP, Decimal
 from typing import TYPE_CHECKING
 
 from skg.errors import UserError
-from skg.messages.finding import Finding
+from skg.messages.finding import Finding, Phrase
 from skg.tape.block import Block, Stop, Tape, line_block
 from skg.tape.block_list import Blocks
 from skg.tape.gcode import Spot, millimetres, minus
@@ -112,8 +112,8 @@ class GcodeProgram:
     home: Spot = (0, 0)
     depths: tuple[Decimal, ...] = ()
     travels: tuple[Decimal, ...] = ()
-    guesses: tuple[str, ...] = ()
-    notes: tuple[str, ...] = ()
+    guesses: tuple[Finding, ...] = ()
+    notes: tuple[Finding, ...] = ()
 
     @property
     def holes(self) -> list[Spot]:
@@ -142,25 +142,26 @@ class GcodeProgram:
         laid, parts = self.path.laid(), self.path.parts()
         return [PlacedRoute(laid[part.first : part.last], part.is_move) for part in parts if isinstance(part, GcodeRun)]
 
-    def heights(self) -> str:
-        """Describe the heights of cuts, holes and moves; empty where none is known."""
+    def heights(self) -> tuple[Phrase, ...]:
+        """The heights of cuts, holes and moves, as far as they are known."""
         holes = self._drilled
         deep = list(dict.fromkeys(hole.depth for hole in holes if hole.depth is not None))
         phrases = [
-            f"cuts at {several(self.depths)}" if self.depths else "",
-            f"{_counted_holes(len(holes))} down to {several(deep)}" if deep else "",
-            f"travels at {several(self.travels)}" if self.travels else "",
+            Phrase("cuts-at", heights=several(self.depths)) if self.depths else None,
+            Phrase("holes-down-to", holes=Phrase("count-drilled", count=len(holes)), heights=several(deep))
+            if deep
+            else None,
+            Phrase("travels-at", heights=several(self.travels)) if self.travels else None,
         ]
-        return ", ".join(filter(None, phrases))
+        return tuple(filter(None, phrases))
 
-    def left_out(self) -> tuple[str, ...]:
-        """Describe what a 3B tape of the same path leaves out."""
+    def left_out(self) -> tuple[Finding, ...]:
+        """The note on what a 3B tape of the same path leaves out, if it does."""
         holes = len(self._drilled)
-        phrases = [
-            _counted_holes(holes) if holes else "",
-            f"the heights of its cuts, {several(self.depths)}" if self.depths else "",
-        ]
-        return (f"left out, as 3B has no word for it: {' and '.join(filter(None, phrases))}",) if any(phrases) else ()
+        drilled = Phrase("count-drilled", count=holes) if holes else None
+        deep = Phrase("heights-of-cuts", heights=several(self.depths)) if self.depths else None
+        what = Phrase("holes-and-heights", first=drilled, other=deep) if drilled and deep else drilled or deep
+        return (Finding("not-in-3b", what=what),) if what else ()
 
     def tape(self) -> Tape:
         """The 3B tape of the same path: a move goes straight, between two stops; holes have no blocks.
@@ -208,14 +209,12 @@ class GcodeProgram:
             raise UserError(Finding("arc-off-circle", number=number, off=float(off[index])).within(self.name))
 
 
-def _counted_holes(number: int) -> str:
-    return f"{number} hole{'s' * (number > 1)}"
-
-
-def several(heights: Sequence[Decimal]) -> str:
+def several(heights: Sequence[Decimal]) -> Phrase | tuple[str, ...]:
     """Some heights, or the first and the last of many."""
-    words = [f"Z{millimetres(rounded_one(height))}" for height in heights]
-    return ", ".join(words) if len(words) <= 3 else f"{words[0]} … {words[-1]} ({len(words)} heights)"
+    words = tuple(f"Z{millimetres(rounded_one(height))}" for height in heights)
+    if len(words) <= 3:
+        return words
+    return Phrase("many-heights", first=words[0], last=words[-1], number=len(words))
 
 
 def _between(start: Spot, end: Spot) -> Blocks:

@@ -10,6 +10,7 @@ from decimal import Decimal
 from math import hypot
 
 from skg.errors import UserError
+from skg.messages.finding import Finding, Phrase
 from skg.tape import gcode_line as known
 from skg.tape.block import Block, Stop, arc_block, line_block
 from skg.tape.dialect import UNITS, GcodeDialect
@@ -17,7 +18,7 @@ from skg.tape.gcode import Spot, minus
 from skg.tape.gcode_dialect import understood
 from skg.tape.gcode_line import MILLIMETRE, SPACE, Findings, GcodeFinding, Misread, Modes, Word
 from skg.tape.gcode_program import Drilled, GcodePath, GcodeProgram, rounded_one
-from skg.tape.gcode_tool import OUTPUTS, Idle, Tool
+from skg.tape.gcode_tool import OFF_WORDS, OUTPUTS, Idle, Tool
 
 #: GRBL takes no line that is longer.
 LONGEST = 70
@@ -32,8 +33,6 @@ _APART = "%:Oo$?"
 _OFF_CONTROL, _OFF_MOST = 5, 500
 #: Controls take an arc of less than so many radians for a full circle.
 _LEAST_SWEEP = 1e-6
-#: The message for a program with rapids alone.
-_GOES_ONLY = "nothing is cut: it goes everywhere with G0"
 
 
 class _Reader:
@@ -72,7 +71,7 @@ class _Reader:
         self.findings.line += 1
         text = line.strip()
         if len(text) > LONGEST:
-            self.findings.warn(LONGEST + 1, f"a line of {len(text)} characters, GRBL takes {LONGEST}")
+            self.findings.warn(LONGEST + 1, Finding("gcode-long-line", length=len(text), most=LONGEST))
         if not text or (text[0] in _APART and self.is_apart(text)):
             return
         block = self.modes.take(line)
@@ -84,12 +83,12 @@ class _Reader:
         if feed := values.pop("F", None):
             self.fed = feed.number > 0
             if not self.fed:
-                self.findings.warn(feed.column, "a feed that is not more than 0")
+                self.findings.warn(feed.column, Finding("gcode-no-feed"))
         if self.modes.motion not in known.CYCLES:
             self.cycle.clear()
         if values and known.DWELL in codes:
             place = next(iter(values.values()))
-            raise Misread(place.column, f"{place.letter} in a line with G4: a time, or a place to go to?")
+            raise Misread(place.column, Finding("gcode-dwell", letter=place.letter))
         if block.is_origin:
             self.name_place(values)
         elif not known.AWAY.isdisjoint(codes):
@@ -104,9 +103,9 @@ class _Reader:
     def is_apart(self, text: str) -> bool:
         """Tell whether a line is no block of words: what begins and ends a file, or is between a person and GRBL."""
         if mark := _MARK.fullmatch(text):
-            self.findings.warn(1, f"GRBL does not know {mark[1]}")
+            self.findings.warn(1, Finding("gcode-not-grbl", word=mark[1]))
         elif system := _SYSTEM.fullmatch(text):
-            self.findings.warn(1, f"{system[1]} is GRBL's: no other control knows it")
+            self.findings.warn(1, Finding("gcode-grbl-only", word=system[1]))
             if system[1].upper() == "$H":
                 self.go_away({}, is_home=True)
         else:
@@ -126,7 +125,7 @@ class _Reader:
             self.height = self.modes.value(values, "Z")
         if self.is_away and {"X", "Y"} <= values.keys():
             if self.begun:
-                raise Misread(min(word.column for word in values.values()), "G92 at a place of the machine's own")
+                raise Misread(min(word.column for word in values.values()), Finding("gcode-origin-away"))
             self.is_away = False
         if self.begun:
             self.origin = {letter: here[letter] - named[letter] for letter in "XY"}
@@ -139,7 +138,7 @@ class _Reader:
         modes = self.modes
         column = next(iter(values.values())).column
         if modes.motion is None:
-            raise Misread(column, "a place to go to, and no G00…G03 behind G80")
+            raise Misread(column, Finding("gcode-no-motion"))
         feeds, is_arc = modes.motion > 0, modes.motion >= 2
         if feeds:
             self.look_for_feed(column)
@@ -155,12 +154,12 @@ class _Reader:
         cuts = self.cuts(lowest, feeds, is_arc or start != end)
         if is_arc:
             if modes.plane != 17:
-                raise Misread(column, f"an arc of G{modes.plane} stands upright: expected arcs of the plane XY, G17")
+                raise Misread(column, Finding("gcode-upright", word=f"G{modes.plane}"))
             if not self.is_no_way(values, goal, end):
                 middle = start if self.has_centres else (0, 0)
                 self.arc(start, end, _to_centre(modes, values, chord, middle, column), column, cuts)
         elif not values.keys().isdisjoint("IJKR"):
-            raise Misread(column, "I, J, K and R belong to G02 and G03")
+            raise Misread(column, Finding("gcode-centre-of-line"))
         else:
             self.go(start, end, cuts)
         self.position, self.spot = goal, end
@@ -189,7 +188,7 @@ class _Reader:
         """Say, once, that there has been no F."""
         if not self.fed:
             self.fed = True
-            self.findings.warn(column, "cuts, and there has been no F")
+            self.findings.warn(column, Finding("gcode-feed-missing"))
 
     def place(self, values: dict[str, Word], feeds: bool) -> tuple[Decimal, Decimal]:
         """Return a line's goal in the plane, µm."""
@@ -199,7 +198,7 @@ class _Reader:
         )
         if self.is_away and (feeds or not self.modes.absolute or not values.keys() >= {"X", "Y"}):
             column = next(iter(values.values())).column
-            raise Misread(column, "from a place of the machine's own, expected a rapid to X and Y")
+            raise Misread(column, Finding("gcode-away"))
         self.is_away = False
         return goal
 
@@ -214,15 +213,15 @@ class _Reader:
     def drill(self, values: dict[str, Word]) -> None:
         """A line of a drilling cycle: to a place, down and up again."""
         for letter in filter("IJK".__contains__, values):
-            raise Misread(values[letter].column, f"{letter} in a drilling cycle is not known here")
+            raise Misread(values[letter].column, Finding("cycle-letter", letter=letter))
         column = next(iter(values.values())).column
         if self.modes.absolute is False:
-            raise Misread(column, "a drilling cycle with relative places is not known here, expected G90")
+            raise Misread(column, Finding("cycle-relative"))
         self.cycle |= {letter: self.modes.value(values, letter) for letter in values if letter in "ZR"}
         if len(self.cycle) < 2:
-            raise Misread(column, "a drilling cycle needs its depth Z and the height R")
+            raise Misread(column, Finding("cycle-incomplete"))
         if self.cycle["R"] < self.cycle["Z"]:
-            raise Misread(column, "a drilling cycle whose height R lies below its depth Z")
+            raise Misread(column, Finding("cycle-upside-down"))
         self.look_for_feed(column)
         retract = self.cycle["R"]
         travels = max(retract, self.height) if self.knows_height and self.height is not None else retract
@@ -240,7 +239,7 @@ class _Reader:
     def go_away(self, values: dict[str, Word], is_home: bool) -> None:
         """G28, G30: home, all of it or the axes that are named; G53: to a place in the machine's coordinates."""
         if self.modes.motion and not is_home and values.keys() & {"X", "Y"}:
-            raise Misread(min(word.column for word in values.values()), "G53 in a line that cuts")
+            raise Misread(min(word.column for word in values.values()), Finding("gcode-machine-cuts"))
         named = values.keys() or (set("XYZ") if is_home else set())
         if "Z" in named:
             self.leave(self.spot, self.height)
@@ -273,7 +272,7 @@ class _Reader:
         first = -to_centre[0], -to_centre[1]
         last = first[0] + end[0] - start[0], first[1] + end[1] - start[1]
         if _is_flat(first, last, self.modes.sense):
-            self.findings.warn(column, "an arc so flat that LinuxCNC and GRBL take it for a full circle")
+            self.findings.warn(column, Finding("gcode-flat"))
         self.lay(arc_block(first, last, self.modes.sense), start, end, cuts)
 
     def lay(self, block: Block, start: Spot, end: Spot, cuts: bool) -> None:
@@ -284,9 +283,9 @@ class _Reader:
             self.blocks += 1
         self.path.lay(block, self.blocks, start, end, not cuts)
 
-    def notes(self) -> tuple[str, ...]:
-        """Describe what does not cut."""
-        return (_GOES_ONLY,) if self.goes_only else self.tool.notes()
+    def notes(self) -> tuple[Finding, ...]:
+        """The notes on what does not cut."""
+        return (Finding("gcode-rapids-only"),) if self.goes_only else self.tool.notes()
 
     @property
     def goes_only(self) -> bool:
@@ -302,17 +301,17 @@ def _to_centre(modes: Modes, values: dict[str, Word], to_end: Spot, start: Spot,
     """From an arc's start to its centre; `to_end` is the way to its end, `start` the place of its start where I and J
     count from that of places."""
     if "K" in values:
-        raise Misread(values["K"].column, "K belongs to arcs of another plane")
+        raise Misread(values["K"].column, Finding("gcode-k"))
     if "R" in values:
         if not values.keys().isdisjoint("IJ"):
-            raise Misread(column, "an arc has its centre, I and J, or its radius, R, not both")
+            raise Misread(column, Finding("gcode-centre-and-radius"))
         return _by_radius(to_end, float(modes.value(values, "R")), modes.sense, column)
     x, y = minus(tuple(rounded_one(modes.value(values, letter)) for letter in "IJ"), start)
     if (x, y) == (0, 0):
-        raise Misread(column, "an arc needs its centre, I and J")
+        raise Misread(column, Finding("gcode-no-centre"))
     off = abs(hypot(to_end[0] - x, to_end[1] - y) - hypot(x, y))
     if off > min(max(_OFF_CONTROL, hypot(x, y) / 1000), _OFF_MOST):
-        raise Misread(column, f"the arc's end is {off:.0f} µm off the circle through its start")
+        raise Misread(column, Finding("gcode-off-circle", off=off))
     return x, y
 
 
@@ -320,9 +319,9 @@ def _by_radius(vector: Spot, radius: float, sense: int, column: int) -> Spot:
     """The vector from an arc's start to its centre, by that to its end and the radius; below 0: over half a turn."""
     chord = hypot(*vector)
     if not chord:
-        raise Misread(column, "an arc by its radius that ends where it begins")
+        raise Misread(column, Finding("gcode-radius-of-circle"))
     if chord / 2 - abs(radius) > _OFF_CONTROL:
-        raise Misread(column, f"the arc's ends are {chord / 1000:g} mm apart, more than twice its radius")
+        raise Misread(column, Finding("gcode-radius-short", chord=chord / 1000))
     aside = max(radius * radius - chord * chord / 4, 0) ** 0.5 / chord
     if (radius > 0) != (sense > 0):
         aside = -aside
@@ -358,16 +357,17 @@ def _read_all(text: str, dialect: GcodeDialect | None) -> _Reader:
         if again.tool.idled < again.tool.feeds:
             reader = again
     for beam, line in reader.tool.always_off.items():
-        message = f"each G1 finds the beam off ({beam}), as if nothing were cut: taken for cuts all the same"
-        reader.findings.all.append(GcodeFinding(line, 1, message, is_fatal=False, is_guess=True))
+        why = Finding("gcode-beam-always-off", beam=OFF_WORDS[beam])
+        reader.findings.all.append(GcodeFinding(line, 1, why, is_fatal=False, is_guess=True))
     if not reader.modes.ended:
         # (with nothing in front of it, it is no program)
-        missing = "expected M02 or M30, found the end of the program"
-        if any(reader.tool.is_on.values()):
-            missing += ", with beam or spindle on"
+        is_on = any(reader.tool.is_on.values())
+        missing = Finding(
+            "gcode-no-end",
+            more=Phrase("still-on") if is_on else None,
+            nothing=Phrase("rapids-only-too") if reader.goes_only else None,
+        )
         is_program = reader.begun
-        if reader.goes_only:
-            missing += f"; {_GOES_ONLY}"
         behind = reader.findings.line + 1
         reader.findings.all.append(GcodeFinding(behind, 1, missing, is_fatal=not is_program, is_guess=is_program))
     return reader
@@ -380,7 +380,7 @@ def scan(text: str, name: str = "-", dialect: GcodeDialect | None = None) -> tup
     if dialect:
         text, notes = understood(text, dialect)
     reader = _read_all(text, dialect)
-    guesses = tuple(str(finding) for finding in reader.findings.all if finding.is_guess)
+    guesses = tuple(each.finding for each in reader.findings.all if each.is_guess)
     program = GcodeProgram(
         name, reader.path, reader.home, tuple(reader.depths), tuple(reader.travels), guesses, (*notes, *reader.notes())
     )
@@ -392,5 +392,5 @@ def read(text: str, name: str = "-", dialect: GcodeDialect | None = None) -> Gco
     program, findings = scan(text, name, dialect)
     for finding in findings:
         if finding.is_fatal:
-            raise UserError(f"{name}: {finding}")
+            raise UserError(finding.finding.within(name))
     return program

@@ -9,12 +9,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 from decimal import Decimal
 
+from skg.messages.finding import Finding, Phrase
 from skg.tape.gcode_program import several
 
-#: Words that turn a beam (or spindle) off, as messages name them, and the M words that turn it on and off: those of
-#: controls; those of a fan's output and of any pin, to which small lasers are connected on boards for printers;
-#: LinuxCNC's outputs.
-_BEAM, _FAN, _PIN, _OUTPUT = "M5 or S0", "M107 or S0", "M42 S0", "M63 or M65"
+#: Beams (or spindles), and the M words that turn them on and off: those of controls; those of a fan's output and of
+#: any pin, to which small lasers are connected on boards for printers; LinuxCNC's outputs.
+_BEAM, _FAN, _PIN, _OUTPUT = "beam", "fan", "pin", "output"
+#: The words that turn each off, as messages name them.
+OFF_WORDS: dict[str, Phrase | str] = {
+    _BEAM: Phrase("one-or-other", first="M5", other="S0"),
+    _FAN: Phrase("one-or-other", first="M107", other="S0"),
+    _PIN: "M42 S0",
+    _OUTPUT: Phrase("one-or-other", first="M63", other="M65"),
+}
 _SWITCHES = {_BEAM: ({3, 4}, {5}), _FAN: ({106}, {107}), _PIN: ({42}, set()), _OUTPUT: ({62, 64}, {63, 65})}
 #: M words of which a line has one at most.
 TURNS = set.union(*_SWITCHES[_BEAM])
@@ -120,29 +127,28 @@ class Tool:
         is_up = lower and len(lower) < len(self.feed_heights) and max(lower) < min(rapids)
         return Idle(beam if beam and 0 < self.dark[beam] < self.feeds else "", above if is_up else None)
 
-    def notes(self) -> tuple[str, ...]:
-        """Describe moves with G1 to G3 that do not cut."""
-        up = "" if self.idle.above is None else f"the tool is up, {several([self.idle.above])}"
-        why = " or ".join(filter(None, [self.idle.beam and f"the beam is off ({self.idle.beam})", up]))
-        note = f"{self.idled} of {self.feeds} moves with G1 to G3 do not cut: {why}" if self.idled else ""
+    def notes(self) -> tuple[Finding, ...]:
+        """The moves with G1 to G3 that do not cut."""
+        off = Phrase("beam-is-off", beam=OFF_WORDS[self.idle.beam]) if self.idle.beam else None
+        up = None if self.idle.above is None else Phrase("tool-is-up", height=several([self.idle.above]))
+        why = Phrase("off-or-up", first=off, other=up) if off and up else off or up
+        note = Finding("moves-idle", idle=self.idled, moves=self.feeds, why=why) if self.idled else None
         return tuple(filter(None, [note, self._note_on_outputs(), self._note_on_pen()]))
 
-    def _note_on_outputs(self) -> str:
+    def _note_on_outputs(self) -> Finding | None:
         """Note that an output may be a beam's, and that it is not known when the beam is off."""
         lit = self.feeds - self.dark[_OUTPUT]
         if self.idle.beam == _OUTPUT or not 0 < lit < self.feeds:
-            return ""
-        note = f"M62 to M65 switch outputs, on in {lit} of {self.feeds} moves with G1 to G3"
-        return f"{note}: if one of them is a beam, it is not known when it is off: all are taken for cuts"
+            return None
+        return Finding("outputs-unknown", lit=lit, moves=self.feeds)
 
-    def _note_on_pen(self) -> str:
+    def _note_on_pen(self) -> Finding | None:
         """Note that there may be a pen, and that it is not known when it is up."""
         # (in a program with a servo the S of M3 lifts nothing)
         turns = [lift for lift in self.lifts if lift[1] is not None and (self.servo is None or lift[0] in _SERVOS)]
         if len(turns) != 2 or self.lift_changes < (1 if self.servo else _CHANGES):
-            return ""
+            return None
         (code, first), (_, second) = turns
         if not self.servo and not (first and second):
-            return ""
-        note = f"moves with G1 to G3 have S{first:f} and S{second:f} of M{code:f}"
-        return f"{note}: if one of them lifts a pen, it is not known which: all are taken for cuts"
+            return None
+        return Finding("pen-unknown", first=f"S{first:f}", second=f"S{second:f}", word=f"M{code:f}")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from skg.errors import UserError
+from skg.messages.finding import Finding
 from skg.tape.block import Tape
 
 #: Starts of blocks: the programmed end of the block before (programmed), or the controller's real position then
@@ -13,17 +14,14 @@ POSITIONS = ("auto", "programmed", "machine")
 #: The end of the name of a tape without drift.
 WITHOUT_DRIFT = ".nodrift.3b"
 
-#: Names of the two in messages on a tape.
-_MEANING = {"programmed": "with drift (programmed)", "machine": "without drift (machine)"}
-
 
 @dataclass(frozen=True)
 class Decision:
-    """Start positions of a tape's blocks, "programmed" or "machine", and why (empty: the option said it, or both are
+    """Start positions of a tape's blocks, "programmed" or "machine", and why (None: the option said it, or both are
     the same to the micrometre)."""
 
     positions: str
-    why: str = ""
+    why: Finding | None = None
 
 
 def decide(tape: Tape, positions: str = "auto") -> Decision:
@@ -31,10 +29,9 @@ def decide(tape: Tape, positions: str = "auto") -> Decision:
     if positions != "auto":
         return Decision(positions)
     if tape.drift is not None:
-        decided = "programmed" if tape.drift else "machine"
-        return Decision(decided, tape.drift_by and f"{_MEANING[decided]}, {tape.drift_by} says so")
-    why = f"taken as {_MEANING['programmed']}; without: --positions machine, or a name that ends in {WITHOUT_DRIFT}"
-    return Decision("programmed", why if depends(tape) else "")
+        told = Finding("with-drift" if tape.drift else "without-drift", by=tape.drift_by)
+        return Decision("programmed" if tape.drift else "machine", told if tape.drift_by else None)
+    return Decision("programmed", Finding("taken-with-drift", ending=WITHOUT_DRIFT) if depends(tape) else None)
 
 
 def depends(tape: Tape) -> bool:

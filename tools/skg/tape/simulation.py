@@ -142,9 +142,9 @@ def _size(gap: tuple[int, int]) -> int:
     return max(abs(gap[0]), abs(gap[1]))
 
 
-def closing(gap: tuple[int, int]) -> str:
-    """Say whether a path closes."""
-    return "closes to 0 µm" if gap == (0, 0) else f"open by {gap[0]}, {gap[1]} µm"
+def closing(gap: tuple[int, int]) -> Phrase:
+    """Tell whether a path closes; `gap`: from its start to its end, µm."""
+    return Phrase("path-closes") if gap == (0, 0) else Phrase("path-open", dx=gap[0], dy=gap[1])
 
 
 def duration(seconds: float) -> Phrase:

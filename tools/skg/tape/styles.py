@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 from skg.errors import UserError
 from skg.file_type import TAPE, refuse_others
 from skg.files import without_mark
+from skg.messages.finding import Finding, Phrase
 from skg.tape.block import MAX_DIGITS, Block, Stop, Tape, line_block, start_quadrant
 
 #: Words for the end of the tape. All others are stops.
@@ -39,7 +40,7 @@ _FOUR = re.compile(r"B\s*\d+\s*B\s*\d+\s*B\s*\d+\s*B\s*\d+\s*G|G\s*[XY]\s*DD?\s*
 
 
 def read_any(data: bytes, name: str = "-") -> Tape:
-    """Return the tape in `data`, whatever its style; `Tape.notes` says what is different from the punch's own.
+    """Return the tape in `data`, whatever its style; `Tape.notes` tells the differences from the punch's own.
 
     What cannot be read, or cannot be right, is a `UserError` with line and column. A tape in the punch's own style must
     be whole; of any other it is noted where no word ends it.
@@ -48,9 +49,7 @@ def read_any(data: bytes, name: str = "-") -> Tape:
     text = _decoded(without_mark(data)).strip("\0\x1a\x7f")
     bare_ends = "\r" in text and "\n" not in text
     text = re.sub("\r\n?", "\n", text)
-    return _StyleReader(
-        name, text.translate(_FULL_WIDTH), text, Counter({"lines that end with CR alone": bare_ends})
-    ).read()
+    return _StyleReader(name, text.translate(_FULL_WIDTH), text, Counter({Phrase("style-bare-cr"): bare_ends})).read()
 
 
 def _decoded(data: bytes) -> str:
@@ -71,29 +70,29 @@ class _StyleReader:
     name: str
     text: str
     written: str
-    seen: Counter[str] = field(default_factory=Counter)
+    seen: Counter[Phrase] = field(default_factory=Counter)
     items: list[Block | Stop] = field(default_factory=list)
     numbers: list[int] = field(default_factory=list)
     blocks: int = 0
 
-    def error(self, index: int, message: str) -> UserError:
-        """Raise an error at a place of the text."""
+    def error(self, index: int, why: Finding) -> UserError:
+        """The error at a place of the text."""
         line = self.text.count("\n", 0, index) + 1
         column = index - (self.text.rfind("\n", 0, index) + 1) + 1
-        return UserError(f"{self.name}: line {line}, column {column}: {message}")
+        return UserError(why.within(self.name, Phrase("at-column", line=line, column=column)))
 
     def read(self) -> Tape:
         start = _START.search(self.text)
         # Comments give way to blanks: places stay what they are.
         bare = _COMMENT.sub(lambda comment: " " * len(comment[0]), self.text)
-        self.seen["comments"] += bare != self.text
-        self.seen["blank tape or rubouts between blocks"] += "\0" in bare or "\x7f" in bare
+        self.seen[Phrase("style-comments")] += bare != self.text
+        self.seen[Phrase("style-blank-tape")] += "\0" in bare or "\x7f" in bare
         index = self._header(bare)
         end, behind = None, 0
         while (index := _BLANK.match(bare, index).end()) < len(bare):
             if block := _BLOCK.match(bare, index):
                 self._block(block)
-                self._note(not re.search(r"[\r\n]", bare[behind:index]) and behind > 0, "several blocks in a line")
+                self._note(not re.search(r"[\r\n]", bare[behind:index]) and behind > 0, Phrase("style-several"))
                 index = behind = block.end()
             elif word := _WORD.match(bare, index):
                 index = word.end()
@@ -102,36 +101,29 @@ class _StyleReader:
                 if name in ENDS:
                     end = name
                     break
-                self._note(word[3] != "D", f"{name} for a stop")
-                self._note("\n" not in bare[behind:index] and behind > 0, "a stop in a block's line")
+                self._note(word[3] != "D", Phrase("style-stop", word=name))
+                self._note("\n" not in bare[behind:index] and behind > 0, Phrase("style-stop-beside"))
                 self.items.append(Stop(self.blocks))
             else:
-                raise self.error(index, f"expected a block B x B y B J G Z, D or DD, found {_found(bare, index)}")
+                raise self.error(index, Finding("no-block-no-word", found=_found(bare, index)))
         self._trailer(bare, index, end)
         place = (float(start[1]), float(start[2])) if start else (0.0, 0.0)
         return Tape.of(self.name, self.items, notes=self._notes(), start=place)
 
-    def _note(self, is_so: bool, note: str) -> None:
+    def _note(self, is_so: bool, note: Phrase) -> None:
         self.seen[note] += is_so
 
     def _header(self, bare: str) -> int:
         """Pass by what stands before the first block."""
         if four := _FOUR.search(bare):
-            raise self.error(
-                four.start(),
-                "this is 4B, with the radius after J or D, DD before Z; its controller "
-                "offsets the wire by itself. Expected 3B: have the package write that",
-            )
+            raise self.error(four.start(), Finding("tape-4b"))
         first = _BLOCK.search(bare)
         if not first:
             like = _LIKE_A_BLOCK.search(bare)
-            raise self.error(
-                like.start() if like else 0,
-                "expected a block B x B y B J G Z" + ("" if like else ", there is none: is this a tape?"),
-            )
+            raise self.error(like.start(), Finding("no-block")) if like else self.error(0, Finding("no-block-at-all"))
         header = bare[: first.start()]
         if like := _LIKE_A_BLOCK.search(header):
-            raise self.error(like.start() + len(like[0]) - len(like[0].lstrip()), "expected a block B x B y B J G Z")
+            raise self.error(like.start() + len(like[0]) - len(like[0].lstrip()), Finding("no-block"))
         index = 0
         while word := _WORD.match(bare, _BLANK.match(bare, index).end()):
             index = word.end()
@@ -139,24 +131,24 @@ class _StyleReader:
             # Nothing but stops: no header.
             return 0
         lines = sum(bool(line.strip()) for line in header.split("\n"))
-        self.seen[f"a header of {lines} line{'s' * (lines > 1)}"] += 1
+        self.seen[Phrase("style-header", count=lines)] += 1
         return first.start()
 
     def _trailer(self, bare: str, index: int, end: str | None) -> None:
         """Look at what stands after the last word."""
         index = _BLANK.match(bare, index).end()
         if _BLOCK.search(bare, index):
-            raise self.error(index, f"expected nothing after {end}, found a block")
+            raise self.error(index, Finding("nothing-after", end=end, found=Phrase("a-block")))
         if like := _LIKE_A_BLOCK.search(bare, index):
-            raise self.error(index, f"expected nothing after {end}, found {_found(bare, like.start())}")
-        self._note(end not in ("DD", None), f"{end} for the end")
+            raise self.error(index, Finding("nothing-after", end=end, found=_found(bare, like.start())))
+        self._note(end not in ("DD", None), Phrase("style-end", word=end))
         lines = sum(bool(line.strip()) for line in bare[index:].split("\n"))
         if lines and not self.styled():
-            raise self.error(index, f"expected nothing after DD, found {_found(bare, index)}")
-        self._note(lines > 0, f"{lines} more line{'s' * (lines > 1)} after the end")
+            raise self.error(index, Finding("nothing-after", end="DD", found=_found(bare, index)))
+        self._note(lines > 0, Phrase("style-trailer", count=lines))
         if end is None and not self.styled():
-            raise self.error(len(bare), "expected DD, found the end of the tape")
-        self._note(end is None, "no DD at the end")
+            raise self.error(len(bare), Finding("expected-found", expected="DD", found=Phrase("end-of-tape")))
+        self._note(end is None, Phrase("style-no-end"))
 
     def styled(self) -> bool:
         """Tell whether the tape is in another style than the punch's own."""
@@ -165,7 +157,7 @@ class _StyleReader:
     def _number(self, match: re.Match[str]) -> None:
         if number := match[1] or match[2]:
             self.numbers.append(int(number))
-            self.seen["block numbers"] += 1
+            self.seen[Phrase("style-numbers")] += 1
 
     def _block(self, match: re.Match[str]) -> None:
         self._number(match)
@@ -173,17 +165,18 @@ class _StyleReader:
         written, digits = match[3], match.group(4, 5, 6)
         for name, number in zip("xyJ", digits, strict=True):
             if len(number.lstrip("0")) > MAX_DIGITS:
-                raise self.error(match.start(3), f"{name} has {len(number)} digits, at most {MAX_DIGITS} fit")
-        self._note(any(number[:1] == "0" and len(number) > 1 for number in digits), "leading zeros")
-        self._note(self.written[match.start() : match.end()] != match[0], "full-width characters")
-        self._note("" in digits, "zeros left out")
-        self._note(bool(re.search(r"[\s,]", written)), "blanks")
-        self._note(written != written.upper(), "small letters")
+                why = Finding("too-many-digits", name=name, digits=len(number), most=MAX_DIGITS)
+                raise self.error(match.start(3), why)
+        self._note(any(number[:1] == "0" and len(number) > 1 for number in digits), Phrase("style-zeros"))
+        self._note(self.written[match.start() : match.end()] != match[0], Phrase("style-full-width"))
+        self._note("" in digits, Phrase("style-no-zeros"))
+        self._note(bool(re.search(r"[\s,]", written)), Phrase("style-blanks"))
+        self._note(written != written.upper(), Phrase("style-small"))
         x, y, j = (int(number or 0) for number in digits)
         given = Block(x, y, j, match[7].upper(), (match[8] + match[9]).upper(), self.blocks)
         block = self._line(given) if given.is_line else self._arc(given)
         if problems := block.problems():
-            raise self.error(match.start(3), f"block {self.blocks}: {problems[0]}")
+            raise self.error(match.start(3), problems[0].within(Phrase("block-number", block=self.blocks)))
         self.items.append(block)
 
     def _line(self, given: Block) -> Block:
@@ -192,19 +185,19 @@ class _StyleReader:
         along_x, right = given.quadrant % 2 == 1, given.quadrant in (1, 4)
         x, y, j = given.x, given.y, given.j
         if (x, y) == (0, 0) and j and along_x == (given.axis == "X"):
-            self.seen["lines along an axis by J alone"] += 1
+            self.seen[Phrase("style-j-alone")] += 1
             x, y = (j, 0) if along_x else (0, j)
         count = x if given.axis == "X" else y
         if count and j > count and j % count == 0 and j != max(x, y):
-            self.seen["lines by their slope, x and y a part of what J says"] += 1
+            self.seen[Phrase("style-slope")] += 1
             x, y = x * j // count, y * j // count
         elif count != j:
             return given
         if (x, y) == (0, 0):
             return given
         made = line_block(x if right else -x, y if given.quadrant < 3 else -y)
-        self._note(made.axis != given.axis, "the other G on lines at 45°")
-        self._note(made.code != given.code, "the other quadrant on lines along an axis")
+        self._note(made.axis != given.axis, Phrase("style-other-g"))
+        self._note(made.code != given.code, Phrase("style-line-quadrant"))
         return Block(made.x, made.y, made.j, made.axis, made.code, given.number)
 
     def _arc(self, given: Block) -> Block:
@@ -212,23 +205,23 @@ class _StyleReader:
         if (given.x, given.y) == (0, 0):
             return given
         quadrant = start_quadrant(*given.start, given.sense)
-        self._note(quadrant != given.quadrant, "the other quadrant on arcs that start on an axis")
+        self._note(quadrant != given.quadrant, Phrase("style-arc-quadrant"))
         return Block(given.x, given.y, given.j, given.axis, f"{given.code[:2]}{quadrant}", given.number)
 
-    def _notes(self) -> tuple[str, ...]:
+    def _notes(self) -> tuple[Finding, ...]:
         notes = [note for note, count in self.seen.items() if count]
         steps = {later - earlier for earlier, later in zip(self.numbers, self.numbers[1:], strict=False)}
         if len(steps) > 1:
-            notes.append("block numbers that do not go on evenly: is a line missing?")
-        return (f"written in another style: {', '.join(notes)}",) if notes else ()
+            notes.append(Phrase("style-uneven"))
+        return (Finding("other-style", notes=tuple(notes)),) if notes else ()
 
 
-def _found(text: str, index: int) -> str:
+def _found(text: str, index: int) -> str | Phrase:
     """Quote the text at a place, for a message."""
     if index >= len(text):
-        return "the end of the tape"
+        return Phrase("end-of-tape")
     word = re.match(r"\w+|.", text[index:])[0][:20]
-    return repr(word) if word.isprintable() else f"byte {ord(word[0]):02X}H"
+    return repr(word) if word.isprintable() else Phrase("byte", byte=ord(word[0]))
 
 
 # Writing --------------------------------------------------------------------------------------------------
@@ -255,7 +248,8 @@ def to_style(items: Iterable[Block | Stop], style: str) -> bytes:
             continue
         x, y, j = item.x, item.y, item.j
         if max(x, y, j) >= 10**MAX_DIGITS:
-            raise UserError(f"line {number}: {item} has a number of more than {MAX_DIGITS} digits")
+            why = Finding("number-too-long", item=str(item), most=MAX_DIGITS)
+            raise UserError(why.within(Phrase("line-number", line=number)))
         texts.append(block_form.format(number=number, x=x, y=y, j=j, axis=item.axis, code=item.code))
     texts.append(word_form.format(number=len(texts) + 1, word="DD"))
     return "".join(texts).encode("ascii")

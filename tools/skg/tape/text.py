@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from io import BytesIO
 
 from skg.files import read_bytes, without_filling
-from skg.messages.finding import Finding
-from skg.messages.render import text as text_of
+from skg.messages.finding import Finding, Phrase
+from skg.messages.render import data, text
 from skg.tape.block import CODES, MAX_DIGITS, Block, Stop, Tape
 from skg.tape.block_list import Blocks
 from skg.tape.positions import WITHOUT_DRIFT
@@ -17,29 +17,40 @@ from skg.tape.styles import read_any, to_style
 
 #: From so many blocks on it takes less time to load numpy than to look at them one by one.
 _MANY = 20_000
+#: The code of a line end that is let pass where a tape is read.
+BARE_LF = "bare-lf"
 _DIGITS = rf"(0|[1-9]\d{{0,{MAX_DIGITS - 1}}})"
 _BLOCK = re.compile(rf"B{_DIGITS}B{_DIGITS}B{_DIGITS}G([XY])({'|'.join(CODES)})", re.ASCII)
 #: The same with its line's end, as the punch makes all of them.
 _LINE = re.compile(rf"{_BLOCK.pattern}\r\n", re.ASCII)
 #: The parts of a block: what is read, what a message expects, and the name of a number.
-_PARTS = (
-    *(part for name in ("x", "y", "J") for part in (("B", "B", ""), ("[0-9]+", f"digits of {name}", name))),
+_PARTS: tuple[tuple[str, str | Phrase, str], ...] = (
+    *(part for name in ("x", "y", "J") for part in (("B", "B", ""), ("[0-9]+", Phrase("digits-of", name=name), name))),
     ("G", "G", ""),
-    ("[XY]", "X or Y", ""),
-    ("|".join(CODES), "L1…L4, NR1…NR4 or SR1…SR4", ""),
+    ("[XY]", Phrase("x-or-y"), ""),
+    ("|".join(CODES), Phrase("codes-of-blocks"), ""),
 )
 
 
 @dataclass(frozen=True)
 class TapeFault:
-    """Something wrong on a tape: block number (from 1), column (from 1) and what was expected."""
+    """Something wrong on a tape: block number (from 1), column (from 1) and what."""
 
     block: int
     column: int
-    message: str
+    why: Finding
 
-    def __str__(self) -> str:
-        return f"block {self.block}, column {self.column}: {self.message}"
+    @property
+    def finding(self) -> Finding:
+        """The finding with its place."""
+        return self.why.within(Phrase("at-block", block=self.block, column=self.column))
+
+    def plain(self) -> dict[str, object]:
+        """The fault for other programs."""
+        known = data(self.why)
+        return {"block": self.block, "column": self.column, "message": text(self.why)} | {
+            name: known[name] for name in ("code", "values")
+        }
 
 
 def _values(block: re.Match[str]) -> tuple[int, int, int, str, str]:
@@ -48,26 +59,26 @@ def _values(block: re.Match[str]) -> tuple[int, int, int, str, str]:
     return int(x), int(y), int(j), axis, code
 
 
-def _first_fault(text: str) -> tuple[int, str]:
+def _first_fault(text: str) -> tuple[int, Finding]:
     """The first thing that does not fit in a text that is no block: its index, and what was expected."""
     index = 0
     for pattern, expected, name in _PARTS:
         part = re.compile(pattern).match(text, index)
         if not part:
-            return index, f"expected {expected}, found {_quoted(text, index)}"
+            return index, Finding("expected-found", expected=expected, found=_quoted(text, index))
         if name and len(part[0]) > MAX_DIGITS:
-            return index, f"{name} has {len(part[0])} digits, at most {MAX_DIGITS} fit"
+            return index, Finding("too-many-digits", name=name, digits=len(part[0]), most=MAX_DIGITS)
         if name and part[0][0] == "0" and len(part[0]) > 1:
-            return index, f"{name} has leading zeros"
+            return index, Finding("leading-zeros", name=name)
         index = part.end()
-    return index, f"expected the end of the block, found {_quoted(text, index)}"
+    return index, Finding("expected-found", expected=Phrase("end-of-block"), found=_quoted(text, index))
 
 
-def _quoted(text: str, index: int) -> str:
+def _quoted(text: str, index: int) -> str | Phrase:
     """Quote the text at a place, for a message."""
     if index >= len(text):
-        return "the end of the line"
-    return repr(text[index]) if text[index].isprintable() else f"byte {ord(text[index]):02X}H"
+        return Phrase("end-of-line")
+    return repr(text[index]) if text[index].isprintable() else Phrase("byte", byte=ord(text[index]))
 
 
 class _Reading:
@@ -95,7 +106,9 @@ class _Reading:
         if line == text and not self.bare:
             self.bare = self.number + 1
         if not whole:
-            self._find(self.number + 1, len(line), "expected CR LF, found the end of the tape")
+            self._find(
+                self.number + 1, len(line), Finding("expected-found", expected="CR LF", found=Phrase("end-of-tape"))
+            )
         if line == "D":
             self.stops.append(Stop(len(self.blocks)))
         elif line == "DD":
@@ -114,17 +127,17 @@ class _Reading:
     def _behind(self, rest: str) -> None:
         """Report text behind DD."""
         if rest:
-            self._find(self.number, 0, f"expected nothing after DD, found {_quoted(rest, 0)}")
+            self._find(self.number, 0, Finding("nothing-after", end="DD", found=_quoted(rest, 0)))
 
     def end(self) -> None:
         """No more lines."""
         if self.bare:
-            self._find(self.bare, 0, "expected CR LF at the line's end, found LF alone (the first)")
+            self._find(self.bare, 0, Finding(BARE_LF))
         if not self.ended:
-            self._find(self.number + 1, 0, "expected DD, found the end of the tape")
+            self._find(self.number + 1, 0, Finding("expected-found", expected="DD", found=Phrase("end-of-tape")))
 
-    def _find(self, block: int, index: int, message: str) -> None:
-        self.findings.append(TapeFault(block, index + 1, message))
+    def _find(self, block: int, index: int, why: Finding) -> None:
+        self.findings.append(TapeFault(block, index + 1, why))
 
 
 def scan(data: bytes, name: str = "-", positions: str = "auto") -> tuple[Tape, list[TapeFault]]:
@@ -141,10 +154,10 @@ def scan(data: bytes, name: str = "-", positions: str = "auto") -> tuple[Tape, l
     tape = Tape(name, reading.blocks, tuple(reading.stops))
     # (of a block there is either this or what could not be read)
     wrong = [
-        TapeFault(block.number, 1, text) for block in _doubtful(tape, positions) for text in block.problems(positions)
+        TapeFault(block.number, 1, why) for block in _doubtful(tape, positions) for why in block.problems(positions)
     ]
     if why := odd_stops(tape):
-        wrong.append(TapeFault(why["number"], 1, text_of(why)))
+        wrong.append(TapeFault(why["number"], 1, why))
     return tape, sorted(wrong + reading.findings, key=lambda finding: (finding.block, finding.column))
 
 
@@ -181,7 +194,7 @@ def parse(data: bytes, name: str = "-") -> Tape:
     Line ends of LF alone are let pass here (an editor may have made them); `skg check` reports them.
     """
     tape, findings = scan(data, name)
-    return read_any(data, name) if any("LF" not in finding.message for finding in findings) else tape
+    return read_any(data, name) if any(fault.why.code != BARE_LF for fault in findings) else tape
 
 
 def read(path: str) -> Tape:
@@ -190,7 +203,7 @@ def read(path: str) -> Tape:
     One whose name ends in `WITHOUT_DRIFT` is without drift.
     """
     tape = parse(read_bytes(path), path)
-    return replace(tape, drift=False, drift_by="its name") if path.lower().endswith(WITHOUT_DRIFT) else tape
+    return replace(tape, drift=False, drift_by=Phrase("its-name")) if path.lower().endswith(WITHOUT_DRIFT) else tape
 
 
 def to_bytes(items: Iterable[Block | Stop]) -> bytes:

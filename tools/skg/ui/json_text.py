@@ -6,8 +6,9 @@ import json
 from typing import Any
 
 from skg.errors import UserError
-from skg.messages.finding import Finding
-from skg.messages.render import Medium, Speech, advice, line, speech
+from skg.messages.catalogue import LANGUAGES
+from skg.messages.finding import Finding, Phrase
+from skg.messages.render import Medium, Speech, advice, line, text
 
 _ENCODER = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"), allow_nan=False)
 
@@ -29,7 +30,13 @@ def in_json(value: object) -> bytes:
 
 def told(error: UserError) -> dict[str, Any]:
     """An error, with the contour and the place that it is about, and the settings that it advises."""
-    return {"message": line(error.finding, Speech(speech.language, Medium.PAGE))} | facts(error.finding)
+    return {"message": said(error.finding)} | facts(error.finding)
+
+
+def said(phrase: Phrase) -> list[str]:
+    """A sentence in each of `LANGUAGES`: the page shows that of its own; a finding's has its source and its mark."""
+    write = line if isinstance(phrase, Finding) else text
+    return [write(phrase, Speech(language, Medium.PAGE)) for language in LANGUAGES]
 
 
 def facts(finding: Finding) -> dict[str, Any]:

@@ -10,7 +10,6 @@ import secrets
 import select
 import socket
 import socketserver
-import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -23,7 +22,9 @@ from typing import NoReturn
 from urllib.parse import parse_qs, unquote
 
 from skg.errors import UserError
-from skg.ui.json_text import encoded, told
+from skg.messages.finding import Finding
+from skg.terminal import remark
+from skg.ui.json_text import encoded, said, told
 from skg.ui.session import Conflict, Session
 from skg.ui.worker import mistake
 from skg.wording import visible
@@ -219,7 +220,7 @@ class Handler(BaseHTTPRequestHandler):
 
     def send_error(self, code: int, message: str | None = None, explain: str | None = None) -> None:
         """Answer a request that is none, as the library finds it."""
-        self._refuse(HTTPStatus(code), {"message": message or HTTPStatus(code).phrase}, {})
+        self._refuse(HTTPStatus(code), _request(message or HTTPStatus(code).phrase), {})
 
     def do_GET(self) -> None:
         """Answer any request."""
@@ -228,7 +229,7 @@ class Handler(BaseHTTPRequestHandler):
         try:
             self._answer()
         except Refused as refused:
-            self._refuse(refused.status, {"message": str(refused)}, {})
+            self._refuse(refused.status, _request(str(refused)), {})
         except Conflict as conflict:
             self._refuse(HTTPStatus.CONFLICT, told(conflict), conflict.data)
         except UserError as error:
@@ -237,9 +238,9 @@ class Handler(BaseHTTPRequestHandler):
             # (the client went away)
             self.close_connection = True
         except Exception as error:
-            message = mistake(error)
-            print(f"skg ui: {message}", file=sys.stderr)
-            self._refuse(HTTPStatus.INTERNAL_SERVER_ERROR, {"message": message}, {})
+            finding = mistake(error)
+            remark(finding, "skg ui")
+            self._refuse(HTTPStatus.INTERNAL_SERVER_ERROR, {"message": said(finding)}, {})
 
     do_HEAD = do_POST = do_PUT = do_DELETE = do_PATCH = do_OPTIONS = do_TRACE = do_CONNECT = do_GET
 
@@ -441,6 +442,11 @@ ROUTES = (
     ("GET", "/api/run/([0-9]{1,9})/(tape|program|sheet|sheet[.]svg|job)", Handler._file),
     ("POST", "/api/save", Handler._save),
 )
+
+
+def _request(detail: str) -> dict:
+    """The error of a request that no page of ours makes."""
+    return {"message": said(Finding("bad-request", detail=detail))}
 
 
 def _no_number(text: str) -> NoReturn:

@@ -12,11 +12,10 @@ from threading import Condition, Event, Lock, Thread
 from skg.errors import UserError
 from skg.files import read_bytes, write_bytes
 from skg.job.job import ROMS
-from skg.messages.finding import Finding
+from skg.messages.finding import Finding, Phrase
 from skg.tape.positions import WITHOUT_DRIFT
-from skg.ui.json_text import told
+from skg.ui.json_text import said, told
 from skg.ui.worker import Ended, Worker
-from skg.wording import visible
 
 #: The drawing's file is looked at so often, s.
 _LOOK = 0.5
@@ -37,8 +36,8 @@ JOB = ".job.toml"
 class Conflict(UserError):
     """Something that the page must decide on, or did not know of yet: `data` says of what."""
 
-    def __init__(self, message: str, **data: object) -> None:
-        super().__init__(message)
+    def __init__(self, why: Finding, **data: object) -> None:
+        super().__init__(why)
         self.data = data
 
 
@@ -170,7 +169,7 @@ class Session:
         with self._called():
             drawing = self._worker.call("drawing_of", data, name)
             if drawing != self._state["name"]:
-                raise UserError(f"{name} is the job of {drawing}: open that drawing first")
+                raise UserError(Finding("job-of-other", name=name, drawing=drawing))
             self._take(self._worker.call("open", self._data, drawing, data, True), is_saved=True)
         return self.state()
 
@@ -188,7 +187,7 @@ class Session:
     def ways(self, rev: int, ids: list[int]) -> dict:
         """The ways of the wire along some contours."""
         if len(ids) > MOST_WAYS:
-            raise UserError(f"ids: at most {MOST_WAYS} contours at once")
+            raise UserError(Finding("bad-request", detail=f"ids: at most {MOST_WAYS} contours at once"))
         with self._called(rev):
             return {"rev": rev, "ways": self._worker.call("ways", ids)}
 
@@ -213,7 +212,7 @@ class Session:
 
     def _expect(self, rev: int | None) -> None:
         if rev is not None and rev != self._rev:
-            raise Conflict("the drawing or its job has changed meanwhile", state=self.state())
+            raise Conflict(Finding("changed-meanwhile"), state=self.state())
 
     def _load(self, data: bytes, name: str, job: bytes | dict | None, path: Path | None = None) -> None:
         """Read a drawing, of a file unless the page sent it; nothing is done where the page has sent another meanwhile.
@@ -302,17 +301,17 @@ class Session:
             try:
                 data = path.read_bytes()
             except OSError as error:
-                self._say(f"{path.name}: {error.strerror}: what is shown was read before")
+                self._say(Finding("shown-is-older", detail=error.strerror).within(path.name))
                 continue
             if data == self._data:
-                self._say("")
+                self._say(None)
             else:
                 with suppress(Ended):
                     self._load(data, path.name, self._state["job"] or job, path)
 
-    def _say(self, message: str) -> None:
-        """Say what is wrong with the drawing's file; nothing: it is as it was read."""
-        error = {"message": visible(message)} if message else self._unread
+    def _say(self, finding: Finding | None) -> None:
+        """Say what is wrong with the drawing's file; None: it is as it was read."""
+        error = {"message": said(finding)} if finding else self._unread
         with self._called():
             self._take({"state": self._state | {"error": error}, "drawing": None})
 
@@ -321,7 +320,7 @@ class Session:
     def cut(self, rev: int) -> int:
         """Begin to make the tape: the run's number."""
         if self._is_long:
-            raise Conflict("a tape is being made, or a drawing read: wait for it or cancel it")
+            raise Conflict(Finding("busy"))
         # (the turn is given back by the thread)
         self._turn.acquire()
         try:
@@ -365,7 +364,7 @@ class Session:
 
     def _known(self, number: int) -> Run:
         if self._run is None or self._run.number != number:
-            raise UserError(f"there is no run {number}, or a newer one has taken its place")
+            raise UserError(Finding("no-run", number=number))
         return self._run
 
     def run(self, number: int, after: int | None = None, patience: float = 0.0) -> dict | None:
@@ -391,7 +390,7 @@ class Session:
         """A file of a run; the sheet is drawn when it is asked for."""
         run = self._known(number)
         if run.state != "done":
-            raise UserError(f"run {number} has made no tape")
+            raise UserError(Finding("run-without-tape", number=number))
         if kind not in run.files:
             with self._called():
                 run.files[kind] = self._worker.call(
@@ -413,11 +412,12 @@ class Session:
     def save(self, number: int | None, kinds: list[str], is_over: bool) -> list[str]:
         """Write files of a run beside the drawing: their names. Some that are there are a `Conflict`."""
         if self._path is None:
-            raise UserError("the drawing came out of the browser: nothing is known of its folder")
+            raise UserError(Finding("no-folder"))
         if unknown := [kind for kind in kinds if kind not in SAVED]:
-            raise UserError(f"what: unknown {unknown[0]!r}, expected some of {', '.join(SAVED)}")
+            detail = f"what: unknown {unknown[0]!r}, expected some of {', '.join(SAVED)}"
+            raise UserError(Finding("bad-request", detail=detail))
         if number is None and kinds != ["job"]:
-            raise UserError("run: expected a number, for what is made by a run")
+            raise UserError(Finding("bad-request", detail="run: expected a number, for what is made by a run"))
         names, folder = self._names(), self._path.parent
         if number is not None:
             files = {kind: self.file(number, kind) for kind in SAVED if kind in kinds}
@@ -427,7 +427,7 @@ class Session:
         files = {names[kind]: data for kind, data in files.items()}
         # (a link to nothing is there too: its target would be written)
         if not is_over and (exists := [name for name in files if os.path.lexists(folder / name)]):
-            raise Conflict(f"{', '.join(exists)}: already there", exists=exists)
+            raise Conflict(Finding("already-there", names=tuple(exists)), exists=exists)
         for name in files:
             if (folder / name).exists() and not (folder / name).is_file():
                 raise UserError(Finding("no-plain-file").within(name))
@@ -436,8 +436,8 @@ class Session:
             try:
                 write_bytes(str(folder / name), data)
             except OSError as error:
-                done = f"; {', '.join(written)} is written" if written else ""
-                raise UserError(f"{name}: {error.strerror}{done}") from None
+                done = Phrase("already-written", names=tuple(written)) if written else None
+                raise UserError(Finding("not-written", detail=error.strerror, done=done).within(name)) from None
             written.append(name)
         if "job" in kinds:
             self._note_saved(number)

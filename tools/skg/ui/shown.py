@@ -19,13 +19,14 @@ from skg.geometry.offset import NoRoom
 from skg.geometry.plane import XY
 from skg.job.job import Chosen
 from skg.job.wanted import Wanted
-from skg.messages.finding import Finding
-from skg.messages.render import text
+from skg.messages.catalogue import LANGUAGES
+from skg.messages.finding import Finding, Phrase
+from skg.messages.render import Medium, Speech, text
 from skg.messages.severity import Severity
 from skg.pipeline.steps import CutDrawing, DrawnJob
 from skg.planning.nesting import findings
 from skg.planning.route import Lead, PlannedContour, Way
-from skg.ui.json_text import encoded, facts, in_json, told
+from skg.ui.json_text import encoded, facts, in_json, said, told
 
 #: Decimals of a length, mm; of a direction, radians.
 _LENGTH, _ANGLE = 4, 6
@@ -60,7 +61,8 @@ def _edge(edge: Edge) -> list[Any]:
 
 def line(entry: Finding) -> dict[str, Any]:
     """A line of a report."""
-    told_line = {"text": text(entry), "care": entry.severity is Severity.CARE} | facts(entry)
+    texts = [text(entry, Speech(language, Medium.PAGE)) for language in LANGUAGES]
+    told_line = {"text": texts, "care": entry.severity is Severity.CARE} | facts(entry)
     # (who has decided on it is not asked again while its values are the same)
     return told_line | ({"key": crc32(repr(entry).encode())} if told_line["care"] else {})
 
@@ -73,7 +75,12 @@ def drawing(drawn: DrawnJob) -> dict[str, Any]:
         for layer in dict.fromkeys(contour.layers):
             on[layer].append(number)
     layers = [
-        {"name": layer.layer, "contours": on[layer.layer], "left": layer.left, "why": ", ".join(map(text, layer.why))}
+        {
+            "name": layer.layer,
+            "contours": on[layer.layer],
+            "left": layer.left,
+            "why": said(Phrase("list", items=tuple(layer.why))),
+        }
         for layer in report.layers
     ]
     return {
@@ -81,7 +88,7 @@ def drawing(drawn: DrawnJob) -> dict[str, Any]:
         "size": place(report.size),
         "low": place(report.low),
         "units": report.units,
-        "units_from": text(report.told),
+        "units_from": said(report.told),
         "layers": layers,
         "contours": in_json([_contour(drawn, *numbered) for numbered in enumerate(drawn.known.choose_all())]),
         "starts": [place(start) for start in drawn.reading.starts],

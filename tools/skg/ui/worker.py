@@ -5,7 +5,6 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
-import sys
 import time
 from collections.abc import Callable
 from contextlib import suppress
@@ -16,8 +15,9 @@ from traceback import extract_tb
 from skg.cutting.progress import Progress
 from skg.errors import UserError
 from skg.garbage import collect_rarely
-from skg.messages.finding import Finding
+from skg.messages.finding import Finding, Phrase
 from skg.messages.render import Medium, speech
+from skg.terminal import remark
 
 #: No call takes longer but a cut, s.
 SECONDS = 120.0
@@ -30,8 +30,8 @@ _PAUSE = 0.1
 class Ended(UserError):
     """The process ended before it answered. `is_wanted`: `Worker.end` did it."""
 
-    def __init__(self, message: str, is_wanted: bool) -> None:
-        super().__init__(message)
+    def __init__(self, why: Finding, is_wanted: bool) -> None:
+        super().__init__(why)
         self.is_wanted = is_wanted
 
 
@@ -96,23 +96,21 @@ class Worker:
                 if kind == "done":
                     return values[0]
                 if kind == "failed":
-                    raise UserError(*values)
+                    raise UserError(values[0])
                 if progress:
                     progress(*values)
         except (EOFError, OSError):
             self._process.join()
             if self._is_ended:
-                raise Ended("cancelled", True) from None
-            how = self._process.exitcode
-            message = f"the process that reads and cuts has ended ({_ended_by(how)}): try again"
-            raise Ended(message, False) from None
+                raise Ended(Finding("cancelled"), True) from None
+            raise Ended(Finding("process-ended", by=_ended_by(self._process.exitcode)), False) from None
 
 
-def _ended_by(code: int) -> str:
+def _ended_by(code: int) -> str | Phrase:
     if code < 0:
         with suppress(ValueError):
             return signal.Signals(-code).name
-    return f"exit code {code}"
+    return Phrase("exit-code", code=code)
 
 
 def work(connection: Connection, language: str) -> None:
@@ -140,20 +138,20 @@ def _answer(function: Callable, arguments: tuple) -> tuple:
     except UserError as error:
         return "failed", error.finding
     except MemoryError:
-        return "failed", f"no room in {MEMORY >> 30} GiB of memory: the drawing is too large, or made to be"
+        return "failed", Finding("no-memory", most=MEMORY >> 30)
     except RecursionError:
-        return "failed", "things lie too deep in each other"
+        return "failed", Finding("too-deep")
     except Exception as error:
-        message = mistake(error)
-        print(f"skg ui: {message}", file=sys.stderr)
-        return "failed", message
+        finding = mistake(error)
+        remark(finding, "skg ui")
+        return "failed", finding
 
 
-def mistake(error: Exception) -> str:
-    """A mistake of this program in one line, and where it was."""
+def mistake(error: Exception) -> Finding:
+    """A mistake of this program, and where it was."""
     last = extract_tb(error.__traceback__)[-1]
     text = " ".join(f"{type(error).__name__}: {error}".split())
-    return f"a mistake of skg's own in {Path(last.filename).name}, line {last.lineno}: {text}"
+    return Finding("mistake", file=Path(last.filename).name, line=last.lineno, detail=text)
 
 
 def _teller(connection: Connection) -> Progress:

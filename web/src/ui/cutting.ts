@@ -1,6 +1,6 @@
 /** The run that makes the tape: begun, followed, cancelled. */
 import type { Desk } from "./desk.ts";
-import { Gone, Refusal, type Server } from "./server.ts";
+import { Gone, Refusal, type Server, same } from "./server.ts";
 import type { Fault, Result, Run } from "./types.ts";
 
 export type Outcome =
@@ -88,12 +88,12 @@ export class Cutting {
     if (number !== this.run) return;
     if (run.state === "done" && run.result) this.#tell({ kind: "done", result: run.result });
     else if (run.state === "cancelled") this.#tell({ kind: "cancelled" });
-    else this.#tell({ kind: "failed", fault: run.error ?? { message: run.state } });
+    else this.#tell({ kind: "failed", fault: run.error ?? { message: same(run.state) } });
   }
 
   #fail(error: unknown): void {
     if (!(error instanceof Refusal || error instanceof Gone)) throw error;
-    this.#tell({ kind: "failed", fault: error instanceof Refusal ? error.fault : { message: error.message } });
+    this.#tell({ kind: "failed", fault: error instanceof Refusal ? error.fault : { message: same(error.message) } });
   }
 
   #tell(outcome: Outcome): void {

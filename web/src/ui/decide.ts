@@ -1,5 +1,6 @@
 /** The line above the drawing: what wants a decision, one after the other, with what can be done about it. */
 import { get, make, onClick } from "../dom.ts";
+import { inPresent } from "../language.ts";
 import { view } from "../shell.ts";
 import type { Canvas } from "./canvas.ts";
 import type { Desk } from "./desk.ts";
@@ -51,7 +52,7 @@ export class Decisions {
     if (!line || shown === this.#shown) return;
     this.#shown = shown;
     box.className = line.wrong ? "wrong" : "care";
-    get("decide-text").textContent = get("decide-text").title = line.text;
+    get("decide-text").textContent = get("decide-text").title = inPresent(line.text);
     get("decide-count").textContent = w("decideCount", this.#at + 1, open.length);
     get("decide-turn").hidden = open.length < 2;
     get("decide-fixes").replaceChildren(...this.#fixes(line).map(button));

@@ -1,6 +1,7 @@
 /** The drawing on the screen: puts its parts together. */
 import walkBytes from "../../wasm/walk.wasm";
 import { get, onClick } from "../dom.ts";
+import { inPresent } from "../language.ts";
 import { hide, show } from "../message.ts";
 import { bindShell, view } from "../shell.ts";
 import { Actions } from "./actions.ts";
@@ -115,14 +116,14 @@ async function open(file: File): Promise<void> {
     hide();
   } catch (error) {
     if (!(error instanceof Refusal || error instanceof Gone)) throw error;
-    show(error instanceof Refusal ? error.fault.message : w("gone"));
+    show(error instanceof Refusal ? inPresent(error.fault.message) : w("gone"));
   }
 }
 
 function bind(): void {
   cutting.onChange = canvas.onWays = say;
   desk.onStale = () => show(w("stale"));
-  desk.onRefused = ({ fault }) => show(fault.message);
+  desk.onRefused = ({ fault }) => show(inPresent(fault.message));
   desk.onChange((news) => {
     // (units, layers and the like may help a drawing that cannot be read)
     if (news.has("drawing") && desk.state?.error) get<HTMLDetailsElement>("more").open = true;
@@ -182,7 +183,8 @@ async function begin(): Promise<void> {
     await desk.listen();
   } catch (error) {
     if (error instanceof Gone) show(w("gone"));
-    else if (error instanceof Refusal) show(error.status === 401 || error.status === 403 ? w("noToken") : error.fault.message);
+    else if (error instanceof Refusal)
+      show(error.status === 401 || error.status === 403 ? w("noToken") : inPresent(error.fault.message));
     else throw error;
   }
 }

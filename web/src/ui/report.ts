@@ -1,5 +1,6 @@
 /** The lines of the report; a place or contour of theirs can be looked at. */
 import { get, make } from "../dom.ts";
+import { inPresent } from "../language.ts";
 import type { Desk } from "./desk.ts";
 import type { TellTale, Told } from "./told.ts";
 import { w } from "./words.ts";
@@ -31,7 +32,7 @@ export class Report {
     const { text, care, wrong, contour, place } = line;
     const row = make("li", wrong ? "wrong" : care ? "care" : "");
     if (care) row.append(make("b", "mark", w("care")));
-    row.append(make("span", "", text));
+    row.append(make("span", "", inPresent(text)));
     if (!place && !this.#desk.contours.has(contour ?? -1)) return row;
     const button = make("button", "link", w("show"));
     button.type = "button";

@@ -2,6 +2,7 @@
 import { BlockList } from "../blocklist.ts";
 import { Chooser } from "../choice.ts";
 import { get, make } from "../dom.ts";
+import { inPresent } from "../language.ts";
 import { type Layout, layOut, nothing } from "../placed.ts";
 import { readTape } from "../tape.ts";
 import { WalkBar } from "../walkbar.ts";
@@ -101,7 +102,7 @@ export class Results {
     } catch (error) {
       if (!(error instanceof Gone || error instanceof Refusal)) throw error;
       this.#drawn = undefined;
-      get("sheet").textContent = error instanceof Refusal ? error.fault.message : w("gone");
+      get("sheet").textContent = error instanceof Refusal ? inPresent(error.fault.message) : w("gone");
     }
   }
 

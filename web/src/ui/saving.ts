@@ -1,6 +1,7 @@
 /** Saves files beside the drawing, or as downloads if the drawing was dropped on the page. */
 import { get } from "../dom.ts";
 import { saveFile } from "../files.ts";
+import { inPresent } from "../language.ts";
 import { ask, show } from "../message.ts";
 import type { Cutting } from "./cutting.ts";
 import type { Desk } from "./desk.ts";
@@ -22,7 +23,7 @@ export async function save(desk: Desk, cutting: Cutting, server: Server): Promis
     const names = desk.state.can_save ? await written(server, run, what) : await downloaded(desk, cutting, server, what);
     if (names.length) show(w(desk.state.can_save ? "saved" : "downloaded", names.join(", ")));
   } catch (error) {
-    if (error instanceof Refusal) show(error.fault.message);
+    if (error instanceof Refusal) show(inPresent(error.fault.message));
     else if (error instanceof Gone) show(w("gone"));
     else throw error;
   }

@@ -1,5 +1,5 @@
 /** The calls to the server of `skg ui`. */
-import type { Empty, Fault, FileKind, Job, Later, Put, Run, State, Ways } from "./types.ts";
+import type { Empty, Fault, FileKind, Job, Later, Put, Run, Said, State, Ways } from "./types.ts";
 
 /** The server refused, and said why. */
 export class Refusal extends Error {
@@ -9,7 +9,7 @@ export class Refusal extends Error {
     readonly state: State | undefined,
     readonly exists: readonly string[],
   ) {
-    super(fault.message);
+    super(fault.message[0]);
   }
 }
 
@@ -101,8 +101,11 @@ async function refusal(response: Response): Promise<Refusal> {
   const said = (await response.json().catch(() => ({}))) as { error?: Fault; state?: State; exists?: string[] };
   return new Refusal(
     response.status,
-    said.error ?? { message: `${response.status} ${response.statusText}` },
+    said.error ?? { message: same(`${response.status} ${response.statusText}`) },
     said.state,
     said.exists ?? [],
   );
 }
+
+/** A text that is the same in both languages. */
+export const same = (text: string): Said => [text, text];

@@ -3,7 +3,7 @@ import type { Cutting } from "./cutting.ts";
 import type { Desk } from "./desk.ts";
 import type { Fault, Line, Plan } from "./types.ts";
 import type { WireWays } from "./ways.ts";
-import { w } from "./words.ts";
+import { both } from "./words.ts";
 
 export interface Told extends Line {
   /** No tape is made while this stands. */
@@ -42,7 +42,7 @@ export class TellTale {
     }
     const known = new Set<string>();
     return [...failed, ...this.#fileFault(), ...faults, ...this.#each, ...this.#noRoom(), ...state.report, ...plan.said].filter(
-      ({ text }) => {
+      ({ text: [text] }) => {
         const isNew = !known.has(text);
         known.add(text);
         return isNew;
@@ -87,7 +87,7 @@ export class TellTale {
   #noRoom(): Told[] {
     return this.#ways.withoutRoom
       .filter((id) => !this.#desk.planned(id)?.error)
-      .map((contour) => ({ code: "no-way-of-wire", text: w("noWay"), wrong: true, contour, advice: [["offset", null]] }));
+      .map((contour) => ({ code: "no-way-of-wire", text: both("noWay"), wrong: true, contour, advice: [["offset", null]] }));
   }
 }
 

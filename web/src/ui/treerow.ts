@@ -1,5 +1,6 @@
 /** Rows of the tree: a layer, a contour. */
 import { make } from "../dom.ts";
+import { inPresent } from "../language.ts";
 import type { Desk } from "./desk.ts";
 import { isCut, own } from "./edits.ts";
 import { shown } from "./look.ts";
@@ -32,7 +33,8 @@ export function layerRow(element: HTMLElement, desk: Desk, layer: Layer, isFolde
   const [wanted] = own(edited, { layer: layer.name });
   if (wanted?.offset !== undefined) element.append(make("span", "own", `R ${shown(wanted.offset)}`));
   if (!layer.left) return;
-  const left = make("span", "left", layer.why ? w("left", layer.left, layer.why) : w("leftOnly", layer.left));
+  const why = inPresent(layer.why);
+  const left = make("span", "left", why ? w("left", layer.left, why) : w("leftOnly", layer.left));
   left.title = left.textContent ?? "";
   element.append(left);
 }
@@ -55,8 +57,8 @@ export function contourRow(element: HTMLElement, desk: Desk, contour: Contour): 
   if (wanted.offset !== undefined) element.append(make("span", "own", `R ${shown(wanted.offset)}`));
   if (!planned?.error) return;
   const fault = make("span", "fault", "⚠");
-  fault.title = planned.error.message;
-  fault.ariaLabel = planned.error.message;
+  fault.title = inPresent(planned.error.message);
+  fault.ariaLabel = inPresent(planned.error.message);
   fault.role = "img";
   element.append(fault);
 }

@@ -1,6 +1,8 @@
 /** Messages between the server and the page; lengths in mm, angles in radians. */
 
 export type Point = readonly [number, number];
+/** A sentence in English and in Chinese. */
+export type Said = readonly [string, string];
 /** A line `x0 y0 x1 y1`, an arc `x0 y0 x1 y1 cx cy sweep`, or a curve `"c" x0 y0 x1 y1 …`. */
 export type Edge = readonly (number | "c")[];
 export type Side = "auto" | "inside" | "outside" | "left" | "right" | "on";
@@ -57,7 +59,7 @@ export interface Layer {
   readonly contours: readonly number[];
   /** Entities on it that are not cut, and why. */
   readonly left: number;
-  readonly why: string;
+  readonly why: Said;
 }
 
 export interface Contour {
@@ -84,13 +86,13 @@ interface Facts {
 
 /** One line of a report; `care`: it wants a decision, and is known again by its `key`. */
 export interface Line extends Facts {
-  readonly text: string;
+  readonly text: Said;
   readonly care?: boolean;
   readonly key?: number;
 }
 
 export interface Fault extends Facts {
-  readonly message: string;
+  readonly message: Said;
 }
 
 /** A contour as it would be cut. */
@@ -133,7 +135,7 @@ export interface State {
   readonly size: Point;
   readonly low: Point;
   readonly units: string;
-  readonly units_from: string;
+  readonly units_from: Said;
   readonly layers: readonly Layer[];
   readonly contours: readonly Contour[];
   readonly starts: readonly Point[];

@@ -1,5 +1,6 @@
 /** The words of the drawing on the screen, in English and 中文. */
 import { phrase } from "../language.ts";
+import type { Said } from "./types.ts";
 import { visible } from "./visible.ts";
 
 const WORDS = {
@@ -211,6 +212,9 @@ const WORDS = {
 export type Word = keyof typeof WORDS;
 
 /** A phrase with its values; texts among them may be foreign names. */
+/** A word in both languages. */
+export const both = (word: Word): Said => WORDS[word];
+
 export const w = (word: Word, ...values: readonly (string | number)[]): string =>
   phrase(WORDS[word], ...values.map((value) => (typeof value === "string" ? visible(value) : value)));
 
