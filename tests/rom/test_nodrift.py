@@ -32,7 +32,7 @@ class Driftless(Board):
 
 def unsound(tape: bytes) -> list[str]:
     """The findings of `skg check` in a tape's blocks (without the missing DD of a tape that an error ended)."""
-    return [str(finding) for finding in scan(tape)[1] if "expected DD" not in finding.message]
+    return [str(fault.finding) for fault in scan(tape)[1] if dict(fault.why.values).get("expected") != "DD"]
 
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda example: example.stem)

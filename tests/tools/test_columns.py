@@ -205,5 +205,5 @@ def test_what_is_plainly_sound_is_sound(any_: list[Block], sound: list[Block]) -
 def test_a_long_tape_has_the_findings_of_a_short_one() -> None:
     wrong = "B343B706B707GYL1\r\nB1B1GXL1\r\nB100B0B401GYNR1\r\nB5B5B5GXL1\n"
     short, long = (tapes.scan(f"{TURN * count}{wrong}DDx\r\n".encode())[1] for count in (1, 5000))
-    moved = [(one.block + 5 * 4999, one.column, one.message) for one in short]
-    assert len(short) > 5 and moved == [(one.block, one.column, one.message) for one in long]
+    moved = [(one.block + 5 * 4999, one.column, one.why) for one in short]
+    assert len(short) > 5 and moved == [(one.block, one.column, one.why) for one in long]

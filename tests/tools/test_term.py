@@ -210,7 +210,7 @@ def test_a_character_that_got_lost(machine: Machine, tmp_path: Path) -> None:
     machine.losses = 9
     result = term(machine.link, "--send", part, "--batch")
     assert (result.returncode, machine.lines) == (1, ["10 REM A"])
-    assert b"part.skg, line 2: comes back as '20 CUT (10': the line to the board loses characters" in result.stderr
+    assert b"part.skg: line 2: comes back as '20 CUT (10': the line to the board loses characters" in result.stderr
 
 
 def test_a_board_that_takes_one_character_at_a_time(machine: Machine, tmp_path: Path) -> None:
@@ -233,7 +233,7 @@ def test_an_error_ends_what_is_sent(machine: Machine, pace: str, tmp_path: Path)
     assert b": ERR 06, geometry impossible" in result.stderr
     if pace == "prompt":
         assert machine.lines == ["10 REM A PART", "20 CUT P1,P2"]
-        assert b"part.skg, line 2: ERR 06" in result.stderr
+        assert b"part.skg: line 2: ERR 06" in result.stderr
 
 
 def test_an_error_gives_the_keyboard(machine: Machine, tmp_path: Path) -> None:

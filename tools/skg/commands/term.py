@@ -147,7 +147,10 @@ def command(
                     finish(typist, ports, 0.0 if is_known else quiet, bool(record and run), is_followed)
             except Stopped as reason:
                 stopped = True
-                teletype.say(Finding("stopped-sending", why=reason.why) if lines or keyed else reason.why)
+                why = reason.why
+                if lines or keyed:
+                    why = Finding("stopped-sending", why=why).within(*why.source)
+                teletype.say(why)
             if is_attended:
                 converse(machine, teletype)
         except BrokenOff:
