@@ -9,6 +9,7 @@ from skg.errors import UserError
 from skg.messages.catalogue import LANGUAGES
 from skg.messages.finding import Finding, Phrase
 from skg.messages.render import Medium, Speech, advice, line, text
+from skg.wording import visible
 
 _ENCODER = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"), allow_nan=False)
 
@@ -36,7 +37,7 @@ def told(error: UserError) -> dict[str, Any]:
 def said(phrase: Phrase) -> list[str]:
     """A sentence in each of `LANGUAGES`: the page shows that of its own; a finding's has its source and its mark."""
     write = line if isinstance(phrase, Finding) else text
-    return [write(phrase, Speech(language, Medium.PAGE)) for language in LANGUAGES]
+    return [visible(write(phrase, Speech(language, Medium.PAGE))) for language in LANGUAGES]
 
 
 def facts(finding: Finding) -> dict[str, Any]:

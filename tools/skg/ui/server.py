@@ -27,7 +27,6 @@ from skg.terminal import remark
 from skg.ui.json_text import encoded, said, told
 from skg.ui.session import Conflict, Session
 from skg.ui.worker import mistake
-from skg.wording import visible
 
 #: The page and what belongs to it: path -> file of `assets`, its type.
 ASSETS = {
@@ -392,7 +391,7 @@ class Handler(BaseHTTPRequestHandler):
         self._send(encoded(data), "application/json", status)
 
     def _refuse(self, status: HTTPStatus, error: dict, data: dict) -> None:
-        self._send_json({"error": error | {"message": visible(error["message"])}, **data}, status)
+        self._send_json({"error": error, **data}, status)
         self._drain()
 
     def _drain(self) -> None:
