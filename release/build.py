@@ -129,6 +129,15 @@ def roms() -> Path:
     return _zip(f"skg-roms-{VERSION}.zip", [(file, file.name) for file in (*images, PICO, ROOT / "LICENSE")])
 
 
+def cpm() -> Path:
+    """What a CP/M machine takes (cpm.py, which wants the tests' CP/M)."""
+    with tempfile.TemporaryDirectory(prefix="skg-cpm-") as folder:
+        run(ROOT / ".venv" / "bin" / "python", "release/cpm.py", folder)
+        files = sorted(file for file in Path(folder).rglob("*") if file.is_file())
+        inside = [(file, file.relative_to(folder).as_posix()) for file in files]
+        return _zip(f"skg-cpm-{VERSION}.zip", [*inside, (ROOT / "LICENSE", "LICENSE.TXT")])
+
+
 def pico() -> Path:
     """The machine for a Raspberry Pi Pico; `make release` has built it."""
     made = DIST / f"skg-pico-{VERSION}.uf2"
@@ -172,7 +181,12 @@ def main() -> None:
     if not only:
         shutil.rmtree(DIST, ignore_errors=True)
     DIST.mkdir(exist_ok=True)
-    works: list[tuple[str, Callable[[], Path]]] = [("page.zip", page), ("roms.zip", roms), ("pico.uf2", pico)]
+    works: list[tuple[str, Callable[[], Path]]] = [
+        ("page.zip", page),
+        ("roms.zip", roms),
+        ("cpm.zip", cpm),
+        ("pico.uf2", pico),
+    ]
     for target in TARGETS:
         if target.wheel:
             works.append((f"{target.wheel}.whl", lambda target=target: wheel(target)))

@@ -121,7 +121,7 @@ def text(source: str) -> bytes:
 
 
 class Cpm:
-    """A machine with two drives at CP/M's prompt; A: has SKG.COM and the given files, B: is empty."""
+    """A machine with two drives at CP/M's prompt; A: has SKG.COM and the given files, or is a `disk`; B: is empty."""
 
     def __init__(
         self,
@@ -129,9 +129,11 @@ class Cpm:
         files: dict[str, bytes] | None = None,
         form: cpm80.DiskFormat | None = None,
         program: Path = PROGRAM,
+        disk: bytes | None = None,
     ) -> None:
         form = form or cpm80.DISK_FORMATS["default"]
-        self.drives = [Drive(cpm80.DiskImage(form, data=_formatted(form, program))), Drive(cpm80.DiskImage(form))]
+        first = cpm80.DiskImage(form, data=disk or _formatted(form, program), store_format=False)
+        self.drives = [Drive(first), Drive(cpm80.DiskImage(cpm80.DISK_FORMATS["default"]))]
         self.console = Console()
         for name, data in (files or {}).items():
             self.write(name, data)
