@@ -99,7 +99,8 @@ t: venv asm80 emu tools web-modules
 # Style. Not formatted: C files in .clang-format-ignore (tables made by hand), assembly (in columns, by hand).
 RUFF      := --config tools/pyproject.toml tools asm tests release pico
 C_SOURCES := $(filter-out emu/terminal_windows.c,$(wildcard $(foreach folder,emu tests/emu tests/fuzz,$(folder)/*.c)))
-C_STYLED  := $(wildcard $(foreach folder,emu pico tests/emu tests/emu/micro tests/fuzz tools/skg/native web/wasm,$(folder)/*.[ch]))
+C_STYLED  := $(wildcard $(foreach folder,emu pico tests/emu tests/emu/micro tests/fuzz tools/skg/native web/wasm,$(folder)/*.[ch]) \
+                        $(foreach folder,arduino/SKG/src tests/arduino,$(folder)/*.h $(folder)/*.cpp))
 
 format: venv web-format
 	$(VENV)/bin/ruff format -q $(RUFF)

@@ -138,6 +138,14 @@ def cpm() -> Path:
         return _zip(f"skg-cpm-{VERSION}.zip", [*inside, (ROOT / "LICENSE", "LICENSE.TXT")])
 
 
+def arduino() -> Path:
+    """The Arduino library (arduino.py)."""
+    with tempfile.TemporaryDirectory(prefix="skg-arduino-") as folder:
+        run(sys.executable, "release/arduino.py", folder)
+        files = sorted(file for file in Path(folder).rglob("*") if file.is_file())
+        return _zip(f"skg-arduino-{VERSION}.zip", [(file, file.relative_to(folder).as_posix()) for file in files])
+
+
 def pico() -> Path:
     """The machine for a Raspberry Pi Pico; `make release` has built it."""
     made = DIST / f"skg-pico-{VERSION}.uf2"
@@ -185,6 +193,7 @@ def main() -> None:
         ("page.zip", page),
         ("roms.zip", roms),
         ("cpm.zip", cpm),
+        ("arduino.zip", arduino),
         ("pico.uf2", pico),
     ]
     for target in TARGETS:
