@@ -37,6 +37,11 @@ const drawn = (page: Page) =>
   page.waitForFunction(
     () => document.getElementById("name")?.textContent && document.getElementById("base")?.dataset["whole"] === "true",
   );
+/** The same, once what was to come or go has done so. */
+const settledView = async (page: Page): Promise<void> => {
+  await page.evaluate(() => new Promise((tell) => requestAnimationFrame(() => requestAnimationFrame(tell))));
+  await drawn(page);
+};
 const says = (page: Page, selector: string, text: string | RegExp) =>
   page.waitForFunction(
     ([selector, wanted]) => {
@@ -364,7 +369,9 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
         if (tab === "sheet") await page.waitForSelector("#sheet img");
         assert.deepEqual(await axe(page), [], tab);
       }
-      await page.click("#tab-report");
+      await page.click("#tab-sheet");
+      await page.waitForSelector("#drawer", { state: "hidden" });
+      await page.click("#settings summary");
       await page.click("#help");
       assert.deepEqual(await axe(page), []);
       await page.click("#close-keys");
@@ -374,6 +381,8 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
       await row(page, "18 × 8").click();
       await type(page, "field-offset", "4.9");
       await page.click("#cut");
+      await page.waitForSelector("#decide.wrong");
+      await page.click("#tab-report");
       await page.waitForSelector("#report .wrong");
       assert.deepEqual(await axe(page), []);
       await shot(page, `wrong-${colorScheme}`);
@@ -542,7 +551,8 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await page.click("#dismiss");
     await type(page, "field-wire", "0.5");
     await page.click("#cut");
-    await page.waitForSelector("#report .wrong");
+    await page.waitForSelector("#decide.wrong");
+    await page.click("#tab-report");
     await page.locator("#report .wrong button").first().click();
     await says(page, "#h-values", "opening 0.4 × 0.4");
     await shot(page, "error");
@@ -582,7 +592,9 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await says(page, "#h-values", "opening 0.08 × 0.08");
     await press("Leave this contour");
     await page.waitForSelector("#decide", { state: "hidden" });
+    await settledView(page);
     await click(page, [55, 0]);
+    await says(page, "#h-values", "outline 60 × 40");
     await type(page, "field-passes", "0.05, 0.02");
     await page.click("#cut");
     await page.waitForSelector("#outcome.care");
@@ -591,6 +603,64 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await page.waitForSelector("#outcome.good");
     await page.click("#cut");
     await page.waitForSelector("#outcome.good");
+    await context.close();
+  });
+
+  test("the drawing has the room: what is left is drawn, alike contours are a row, a box chooses, the drawer keeps its height", async () => {
+    const holes = [10, 25, 40, 55].map((x) => circle(x, 8, 2));
+    const text = ["TEXT", { 8: "NOTES", 10: 20, 20: 25, 40: 5, 1: "PART 12" }] as const;
+    const { url } = await start("part.dxf", dxf(...box(0, 0, 60, 40), ...holes, circle(15, 30, 5), text));
+    const { page, context } = await visit(url, { viewport: LOW });
+    await drawn(page);
+    const { width, height } = (await page.locator("#over").boundingBox()) ?? { width: 0, height: 0 };
+    assert.ok(width * height > 0.5 * LOW.width * LOW.height, `${width} × ${height}`);
+    /** Something is drawn in a box of the drawing, mm. */
+    const isInked = async (left: number, low: number, right: number, high: number): Promise<boolean> => {
+      const [x0, y0] = await pixel(page, [left, high]);
+      const [x1, y1] = await pixel(page, [right, low]);
+      return page.evaluate(
+        ([x0, y0, x1, y1]) => {
+          const canvas = document.getElementById("base") as HTMLCanvasElement;
+          const { left, top } = canvas.getBoundingClientRect();
+          const data = canvas.getContext("2d")?.getImageData(x0 - left, y0 - top, x1 - x0, y1 - y0).data ?? [];
+          return data.some((value, at) => at % 4 === 3 && value > 0);
+        },
+        [x0, y0, x1, y1] as const,
+      );
+    };
+    assert.ok(await isInked(21, 25, 40, 30), "the text is seen");
+    assert.ok(!(await isInked(45, 15, 58, 24)), "and nothing where nothing is");
+    // alike ones: a row of four, opened and folded; all of them by a click
+    await says(page, "#tree .alike .times", "× 4");
+    assert.equal(await page.locator("#tree .within").count(), 0);
+    await page.click("#tree .alike .fold");
+    await page.waitForFunction(() => document.querySelectorAll("#tree .within").length === 4);
+    await click(page, [25, 6]);
+    await says(page, "#h-values", "opening 4 × 4");
+    await page.click("#alike");
+    await says(page, "#h-values", "4 contours");
+    await page.locator("#tree .alike .check").click();
+    await page.waitForSelector("#tree .alike[aria-checked=false]");
+    // a box from left to right has what lies in it, from right to left also what it touches
+    await page.keyboard.down("Shift");
+    await drag(page, [5, 4], [45, 14]);
+    await page.keyboard.up("Shift");
+    await says(page, "#h-values", "3 contours");
+    await page.click("#box");
+    await drag(page, [56, 12], [38, 7]);
+    await says(page, "#h-values", "2 contours");
+    await page.click("#box");
+    // the drawer
+    await page.click("#tab-report");
+    const tall = async (): Promise<number> => (await page.locator("#drawer").boundingBox())?.height ?? 0;
+    const before = await tall();
+    for (const tab of ["blocks", "program", "sheet"]) {
+      await page.click(`#tab-${tab}`);
+      assert.equal(await tall(), before);
+    }
+    assert.equal((await page.locator("#over").boundingBox())?.height, height);
+    await page.keyboard.press("Escape");
+    await page.waitForSelector("#drawer", { state: "hidden" });
     await context.close();
   });
 

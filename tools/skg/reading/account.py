@@ -45,15 +45,25 @@ class Entity:
     dashes: str = ""
 
 
+@dataclass(frozen=True)
+class Written:
+    """A text on a drawing: where it begins, and the way up as far as a capital is high, mm."""
+
+    text: str
+    place: XY
+    up: XY
+
+
 @dataclass
 class Content:
     """The content of a file: its entities, their edges in mm (each with the number of its entity), start points in mm,
-    and what is to be said of them. `others`: the edges of what is left because of its layer."""
+    and what is to be said of them. `others`: the edges of what is left because of its layer; `written`: texts."""
 
     entities: list[Entity] = field(default_factory=list)
     edges: list[Edge] = field(default_factory=list)
     others: list[Edge] = field(default_factory=list)
     starts: list[XY] = field(default_factory=list)
+    written: list[Written] = field(default_factory=list)
     notes: list[Finding] = field(default_factory=list)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 from functools import cache
-from math import pi, radians, sqrt
+from math import cos, pi, radians, sin, sqrt
 from types import ModuleType
 from typing import TYPE_CHECKING
 
@@ -17,12 +17,12 @@ from skg.geometry.plane import XY
 from skg.job.read_options import Wishes
 from skg.messages.finding import Finding, Phrase
 from skg.reading import fast_dxf
-from skg.reading.account import NOTE, Content, Entity, by_layer
+from skg.reading.account import NOTE, Content, Entity, Written, by_layer
 from skg.reading.budget import check_entities, check_vertices
 from skg.reading.curves import is_number
 from skg.reading.dxf_file import Definition, DxfFile
 from skg.reading.dxf_placing import LEAVES, NotFlat, Placing, is_full, swept
-from skg.reading.dxf_record import Record
+from skg.reading.dxf_record import Record, unescaped
 
 if TYPE_CHECKING:
     from ezdxf.entities import DXFGraphic
@@ -34,6 +34,8 @@ NOTES = frozenset(
     HATCH MPOLYGON SOLID TRACE VIEWPORT IMAGE PDFUNDERLAY DWFUNDERLAY DGNUNDERLAY WIPEOUT OLEFRAME OLE2FRAME
     ACAD_TABLE RTEXT ARCALIGNEDTEXT POINT LIGHT CAMERA SECTION SUN GEODATA SHAPE RAY XLINE""".split()  # noqa: SIM905
 )
+#: Those of them that are a text at a place.
+_TEXTS = frozenset(("TEXT", "MTEXT", "ATTRIB"))
 #: Kinds that have no lines to cut, or none that are understood, and what a person can do.
 _NO_LINES = {
     **dict.fromkeys(("3DFACE", "MESH"), Phrase("reason-face")),
@@ -127,6 +129,8 @@ class _Collector:
         account.left = hidden or self.unwanted(layer) or (Phrase("reason-invisible") if record.whole(60) else None)
         if not account.left and _is_note(record.kind, is_start):
             account.left = NOTE
+            if record.kind in _TEXTS:
+                self.write(record)
         if self.wishes.is_by_layer(account.left) and not is_start and not _is_note(record.kind, is_start):
             self.see(record, account)
         if account.left:
@@ -150,6 +154,20 @@ class _Collector:
             account.left = _unread(error)
         account.is_odd = True
         del self.content.edges[known:]
+
+    def write(self, record: Record) -> None:
+        """Keep a text, for who looks at the drawing."""
+        x, y, height, angle = record.real(10), record.real(20), record.real(40), record.real(50)
+        text = "".join(value for code, value in record.groups if code in (1, 3))
+        if not text or not all(map(is_number, (x, y, height))) or height <= 0:
+            return
+        angle = radians(angle) if is_number(angle) else 0.0
+        foot, head = (x, y), (x - height * sin(angle), y + height * cos(angle))
+        if self.placing.matrix is not None:
+            foot, head = (self.placing.matrix.transform(place).xyz[:2] for place in (foot, head))
+        factor = self.placing.factor
+        up = (head[0] - foot[0]) * factor, (head[1] - foot[1]) * factor
+        self.content.written.append(Written(unescaped(text), (foot[0] * factor, foot[1] * factor), up))
 
     def see(self, record: Record, account: Entity) -> None:
         """Keep the edges of a record whose layer is not cut: what is cut may lie in them."""

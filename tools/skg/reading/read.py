@@ -27,7 +27,7 @@ from skg.messages.render import text
 # (all of these at once: what a library drops while it is loaded keeps alive all that those hold who called for it; what
 # reads SVG is loaded for that alone)
 from skg.reading import dxf_entities, dxf_file
-from skg.reading.account import ASKED, NOT_TOLD, NOTE, ODD_METRES, TOLD, Account, Content, listed
+from skg.reading.account import ASKED, NOT_TOLD, NOTE, ODD_METRES, TOLD, Account, Content, Written, listed
 from skg.reading.chain import merged
 from skg.reading.selection import Fates, Selection
 
@@ -61,7 +61,8 @@ class Reading:
     """A drawing that was read: contours in the order of the file (mm), start holes (mm); `others`: the closed contours
     that are left because of their layers; `opened`: the open lines, cut or not, on any layer. `begun`: the report but
     for what becomes of the entities, `fates` has that; `drawn`: the contours as the entities have their edges;
-    `nominal`: the edges of the file, before anything was mended.
+    `nominal`: the edges of the file, before anything was mended; `unasked`: those of layers that are not cut;
+    `written`: its texts.
     """
 
     contours: list[Contour]
@@ -72,6 +73,8 @@ class Reading:
     fates: Fates
     drawn: list[Contour]
     nominal: list[Edge]
+    unasked: list[Edge]
+    written: list[Written]
 
     @cached_property
     def report(self) -> Account:
@@ -122,7 +125,8 @@ def _read(data: bytes, name: str, wishes: Wishes) -> Reading:
     _check_size(report)
     contours = [replace(merged(contour), layers=fates.layers(contour)) for contour in drawn]
     others, opened = selection.others()
-    return _near_origin(Reading(contours, content.starts, others, opened, report, fates, drawn, content.edges))
+    seen = content.edges, content.others, content.written
+    return _near_origin(Reading(contours, content.starts, others, opened, report, fates, drawn, *seen))
 
 
 def _is_in_odd_metres(contours: list[Contour], report: Account) -> bool:
@@ -145,9 +149,11 @@ def _near_origin(reading: Reading) -> Reading:
         [contour.shifted(by) for contour in group] for group in (reading.contours, reading.others, reading.opened)
     )
     starts = [shifted(start, by) for start in reading.starts]
-    nominal = [edge.shifted(by) for edge in reading.nominal]
+    nominal, unasked = ([edge.shifted(by) for edge in group] for group in (reading.nominal, reading.unasked))
+    written = [replace(text, place=shifted(text.place, by)) for text in reading.written]
     report.mends = [replace(mend, place=shifted(mend.place, by)) for mend in report.mends]
-    return replace(reading, contours=contours, starts=starts, others=others, opened=opened, nominal=nominal)
+    seen = {"nominal": nominal, "unasked": unasked, "written": written}
+    return replace(reading, contours=contours, starts=starts, others=others, opened=opened, **seen)
 
 
 def layer_lines(data: bytes, name: str, wishes: Wishes) -> tuple[list[str], list[str]]:

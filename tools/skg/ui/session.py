@@ -28,6 +28,7 @@ NOTHING: dict = {
     **{name: [] for name in ("layers", "contours", "starts", "report")},
     **{name: [0.0, 0.0] for name in ("size", "low")},
     **{name: "" for name in ("sha256", "units", "units_from")},
+    "left": {"edges": [], "notes": []},
 }
 #: Job files end so.
 JOB = ".job.toml"

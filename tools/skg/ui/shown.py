@@ -27,11 +27,14 @@ from skg.pipeline.steps import CutDrawing, DrawnJob
 from skg.planning.nesting import findings
 from skg.planning.route import Lead, PlannedContour, Way
 from skg.ui.json_text import encoded, facts, in_json, said, told
+from skg.wording import visible
 
 #: Decimals of a length, mm; of a direction, radians.
 _LENGTH, _ANGLE = 4, 6
 #: A curve is shown by chords that leave it by no more, mm.
 _CURVE = 0.0005
+#: So many texts of a drawing are shown.
+_MOST_TEXTS = 2000
 #: The plan of a contour that is not cut.
 _LEFT: dict[str, Any] = {
     "cut": False,
@@ -92,8 +95,31 @@ def drawing(drawn: DrawnJob) -> dict[str, Any]:
         "layers": layers,
         "contours": in_json([_contour(drawn, *numbered) for numbered in enumerate(drawn.known.choose_all())]),
         "starts": [place(start) for start in drawn.reading.starts],
+        "left": in_json(_left(drawn)),
         "report": [line(entry) for entry in report.report()],
     }
+
+
+def _left(drawn: DrawnJob) -> dict[str, Any]:
+    """What is not cut: edges of entities that are not cut whole, and texts."""
+    reading = drawn.reading
+    left = [edge for edge in reading.nominal if edge.entity not in reading.report.whole]
+    return {
+        "edges": edges([*left, *reading.unasked]),
+        "notes": [
+            {"text": _plain(written.text), "place": place(written.place), "up": place(written.up)}
+            for written in reading.written[:_MOST_TEXTS]
+        ],
+    }
+
+
+def _plain(text_of_file: str) -> str:
+    """A text of a DXF file without its codes."""
+    if "\\" not in text_of_file and "%%" not in text_of_file:
+        return visible(text_of_file)
+    from ezdxf.tools.text import fast_plain_mtext, plain_text
+
+    return "\n".join(map(visible, fast_plain_mtext(plain_text(text_of_file)).split("\n")))
 
 
 def _contour(drawn: DrawnJob, number: int, chosen: Chosen) -> dict[str, Any]:

@@ -1,4 +1,5 @@
 /** Actions on the chosen contours, by a key or in their menu. */
+import { alikeTo } from "./alike.ts";
 import type { Desk } from "./desk.ts";
 import { type Change, change, isCut, reset } from "./edits.ts";
 import type { Side } from "./types.ts";
@@ -52,6 +53,12 @@ export class Actions {
     const order = this.#desk.planned(other)?.number;
     const { edited, contours } = this.#desk;
     if (order && id !== other) this.#desk.edit(change(edited, { contours: [id] }, { order }, contours));
+  }
+
+  /** All that are alike to the chosen ones are chosen. */
+  alike(): void {
+    const { contours, chosen } = this.#desk;
+    if (chosen.length) this.#desk.choose({ contours: alikeTo(contours, chosen) });
   }
 
   reset(): void {

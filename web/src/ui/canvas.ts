@@ -38,6 +38,8 @@ export class Canvas {
   onPoint: (place: Point | undefined) => void = () => undefined;
   /** A contour is asked for what can be done with it, at a place of the window. */
   onMenu: (id: number, x: number, y: number) => void = () => undefined;
+  /** A pointer that is dragged draws a box. */
+  isBoxing = false;
   /** More is known of the wire's ways. */
   onWays: () => void = () => undefined;
 
@@ -141,6 +143,12 @@ export class Canvas {
   point(place: Point | undefined): void {
     this.overlay.place = place && micrometres(place);
     if (this.overlay.place) this.#show([...this.overlay.place, ...this.overlay.place]);
+    this.#soon();
+  }
+
+  /** The box that is being drawn, two corners in pixels. */
+  set box(box: readonly [XY, XY] | undefined) {
+    this.overlay.box = box;
     this.#soon();
   }
 

@@ -1,8 +1,8 @@
 /** The job on the desk: the drawing as the server has read it, its settings, the plan, the selection; undo and redo. */
 import { type Edited, edited, moved, type Scope } from "./edits.ts";
-import { type Shape, shapeOf } from "./geometry.ts";
+import { edgesOf, type Shape, shapeOf } from "./geometry.ts";
 import { Gone, Refusal, type Server } from "./server.ts";
-import type { Contour, Empty, Later, Plan, Planned, State } from "./types.ts";
+import type { Contour, Empty, Later, Note, Plan, Planned, State } from "./types.ts";
 
 /** The thing that has changed. */
 export type News = "drawing" | "job" | "plan" | "selection" | "server";
@@ -32,6 +32,8 @@ export class Desk {
   plan: Plan = NO_PLAN;
   contours: ReadonlyMap<number, Contour> = new Map();
   shapes: ReadonlyMap<number, Shape> = new Map();
+  /** What is not cut: edges in µm, and what is written. */
+  left: { readonly edges: readonly (readonly number[])[]; readonly notes: readonly Note[] } = { edges: [], notes: [] };
   isGone = false;
   /** The drawing's file has changed since it was opened. */
   isReadAgain = false;
@@ -213,6 +215,7 @@ export class Desk {
     if (!ours) this.#undo = this.#redo = [];
     this.contours = new Map(state.contours.map((contour) => [contour.id, contour]));
     this.shapes = new Map(state.contours.map((contour) => [contour.id, shapeOf(contour)]));
+    this.left = { edges: edgesOf(state.left?.edges ?? []), notes: state.left?.notes ?? [] };
     this.#tell("drawing", "selection", "job", "plan");
   }
 

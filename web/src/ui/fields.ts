@@ -1,5 +1,6 @@
 /** The panel of what is chosen: contours, a layer, or everything. */
 import { get } from "../dom.ts";
+import { alikeTo } from "./alike.ts";
 import type { Desk } from "./desk.ts";
 import { type Change, change, isCut, own, reset } from "./edits.ts";
 import { Field, type Plan, same, type Value } from "./inputs.ts";
@@ -26,6 +27,9 @@ const USUAL: Wanted = {
   lead_shape: "perpendicular",
   reverse: false,
 };
+
+/** Of more contours nobody asks for those that are alike. */
+const MOST_CHOSEN = 20;
 
 const PLANS: readonly (Plan & { key: Key })[] = [
   { key: "cut", label: "cut", kind: "switch" },
@@ -95,6 +99,11 @@ export class Fields {
     const { scope, edited, state } = this.#desk;
     const wanted = own(edited, scope);
     get("h-values").textContent = this.#title();
+    const { chosen, contours } = this.#desk;
+    const isFew = typeof scope === "object" && "contours" in scope && chosen.length < MOST_CHOSEN;
+    const count = isFew ? alikeTo(contours, chosen).length : 0;
+    get("alike").hidden = count <= chosen.length;
+    get("alike").textContent = w("alike", count);
     const button = get<HTMLButtonElement>("reset");
     button.textContent = w(typeof scope === "object" && "contours" in scope ? "resetToLayer" : "resetAll");
     button.disabled = !wanted.some((each) => PLANS.some(({ key }) => each[key] !== undefined));

@@ -170,3 +170,34 @@ export function wayToEntry(
 
 /** Tell if a direction of travel is the contour's own, not the opposite. */
 export const goesWith = (way: number, direction: number): boolean => Math.cos(way - direction) >= 0;
+
+/** Tell if a contour runs through a box, or lies in it. */
+export function touches({ edges, box }: Shape, [left, bottom, right, top]: Box, scale: number): boolean {
+  if (box[0] > right || box[2] < left || box[1] > top || box[3] < bottom) return false;
+  for (const edge of edges) {
+    let [x0, y0] = startOf(edge);
+    let isIn = false;
+    trace(edge, scale, (x, y) => {
+      isIn ||= crosses(x0, y0, x - x0, y - y0, [left, bottom, right, top]);
+      [x0, y0] = [x, y];
+    });
+    if (isIn) return true;
+  }
+  return false;
+}
+
+/** A line from a place has a part in a box. (Liang and Barsky, 1984.) */
+function crosses(x: number, y: number, dx: number, dy: number, [left, bottom, right, top]: Box): boolean {
+  let [from, to] = [0, 1];
+  for (const [way, room] of [
+    [-dx, x - left],
+    [dx, right - x],
+    [-dy, y - bottom],
+    [dy, top - y],
+  ] as [number, number][]) {
+    if (!way && room < 0) return false;
+    if (way < 0) from = Math.max(from, room / way);
+    else if (way > 0) to = Math.min(to, room / way);
+  }
+  return from <= to;
+}

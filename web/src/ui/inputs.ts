@@ -131,6 +131,7 @@ export class Field {
   name(): void {
     const word = w(this.plan.label);
     this.#label.textContent = word;
+    this.row.title = this.plan.unit ? w("withUnit", word, this.plan.unit) : word;
     if (this.plan.kind === "point") {
       this.#inputs.forEach((input, at) => {
         input.ariaLabel = w(at ? "ofY" : "ofX", word);

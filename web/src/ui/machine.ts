@@ -3,6 +3,7 @@ import { get } from "../dom.ts";
 import type { Desk } from "./desk.ts";
 import { type Edited, set } from "./edits.ts";
 import { Field, type Plan, type Value } from "./inputs.ts";
+import { w } from "./words.ts";
 
 type Part = "machine" | "read";
 
@@ -18,11 +19,20 @@ const FIRST: readonly Entry[] = [
   { part: "machine", key: "wire", label: "wire", kind: "number", unit: "mm", example: "0.18" },
   { part: "machine", key: "gap", label: "gap", kind: "number", unit: "mm", example: "0.01" },
   { part: "machine", key: "feed", label: "feed", kind: "number", unit: "mm/min", example: "5", usual: 5 },
+  { part: "machine", key: "thickness", label: "thickness", kind: "text", unit: "mm" },
 ];
+/** Beside the drawing's size. */
+const UNITS: Entry = {
+  part: "read",
+  key: "units",
+  label: "units",
+  kind: "choice",
+  usual: "",
+  options: [["", "unitsFile"], ...(units("mm", "cm", "m", "inch", "foot", "mil", "um") ?? [])],
+};
 const MORE: readonly Entry[] = [
   { part: "machine", key: "offset", label: "machineOffset", kind: "number", unit: "mm", example: "0.1" },
   { part: "machine", key: "material", label: "material", kind: "text" },
-  { part: "machine", key: "thickness", label: "thickness", kind: "text" },
   {
     part: "machine",
     key: "rom",
@@ -59,14 +69,6 @@ const MORE: readonly Entry[] = [
   },
   {
     part: "read",
-    key: "units",
-    label: "units",
-    kind: "choice",
-    usual: "",
-    options: [["", "unitsFile"], ...(units("mm", "cm", "m", "inch", "foot", "mil", "um") ?? [])],
-  },
-  {
-    part: "read",
     key: "open",
     label: "openEnds",
     kind: "choice",
@@ -91,9 +93,10 @@ export class MachineFields {
 
   constructor(desk: Desk, wrong: (message: string) => void) {
     this.#desk = desk;
-    this.#fields = [...FIRST, ...MORE].map((entry) => {
+    this.#fields = [...FIRST, UNITS, ...MORE].map((entry) => {
       const field = new Field(entry, (value) => this.#take(entry, value), wrong, MORE.includes(entry));
-      get(FIRST.includes(entry) ? "machine" : "machine-more").append(field.row);
+      if (entry === UNITS) get("size").after(field.row);
+      else get(FIRST.includes(entry) ? "machine" : "machine-more").append(field.row);
       return [entry, field];
     });
     desk.onChange((news) => {
@@ -126,9 +129,18 @@ export class MachineFields {
     this.show();
   }
 
+  /** The file's own units, in place of the word for them. */
+  #nameUnits(): void {
+    const option = document.querySelector("#field-units option");
+    if (option) option.textContent = w("unitsFile", this.#desk.state?.units ?? "");
+  }
+
   show(): void {
     const { job } = this.#desk.edited;
-    for (const [{ part, key, usual }, field] of this.#fields) {
+    if (job.read?.["units"] === undefined) this.#nameUnits();
+    for (const [entry, field] of this.#fields) {
+      const { part, key, usual } = entry;
+      if (entry === UNITS) field.row.hidden = !this.#desk.state;
       const value = (job[part]?.[key] ?? (key === "gap" ? this.#gap : undefined)) as Value;
       field.show(value ?? usual, value !== undefined);
     }

@@ -149,6 +149,11 @@ function bind(): void {
   onClick("save", saveAll);
   onClick("undo", () => desk.undo());
   onClick("redo", () => desk.redo());
+  onClick("alike", () => actions.alike());
+  onClick("box", () => {
+    canvas.isBoxing = !canvas.isBoxing;
+    get("box").ariaPressed = String(canvas.isBoxing);
+  });
   onClick("fit", () => canvas.fit());
   onClick("closer", () => canvas.zoom(1.5));
   onClick("farther", () => canvas.zoom(1 / 1.5));

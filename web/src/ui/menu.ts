@@ -1,6 +1,7 @@
 /** The menu of a contour: by the other button, a finger that stays, or the menu key. */
 import { get, make } from "../dom.ts";
 import type { Actions } from "./actions.ts";
+import { alikeTo } from "./alike.ts";
 import type { Desk } from "./desk.ts";
 import { isCut } from "./edits.ts";
 import { titleOf } from "./treerow.ts";
@@ -32,6 +33,8 @@ export class Menu {
     const actions = this.#actions;
     const cut = isCut(this.#desk.edited, contour);
     const tab = this.#desk.planned(id)?.values.tab;
+    const { chosen, contours } = this.#desk;
+    const count = alikeTo(contours, chosen).length;
     const items: [string, () => void][] = [
       [w(cut ? "skipCut" : "doCut"), () => actions.skip()],
       ...(cut
@@ -43,6 +46,7 @@ export class Menu {
             [w("later"), () => void actions.order(1)],
           ] as [string, () => void][])
         : []),
+      ...(count > chosen.length ? ([[w("alike", count), () => actions.alike()]] as [string, () => void][]) : []),
       [w("resetToLayer"), () => actions.reset()],
     ];
     box.ariaLabel = w("menuOf", titleOf(contour));

@@ -29,6 +29,8 @@ export class Overlay {
   /** A place of the report, µm. */
   place: XY | undefined;
   rings: readonly Ring[] = [];
+  /** Two corners of the box that is being drawn, pixels. */
+  box: readonly [XY, XY] | undefined;
   walk: Wire | undefined;
   blocks: readonly Placed[] = [];
   /** The block that is pointed at. */
@@ -58,6 +60,7 @@ export class Overlay {
       context.arc(...view.toPixel(place), isPresent ? 14 : 10, 0, 2 * Math.PI);
       context.stroke();
     }
+    if (this.box) drawBox(context, this.box, colours);
     if (!this.place) return;
     context.strokeStyle = colours.wrong;
     context.lineWidth = 3;
@@ -134,6 +137,17 @@ class Trail {
 function edgeOf(placed: Placed, done = 1, end = placed.end): number[] {
   const ends = [...placed.start, ...end];
   return isLine(placed) ? ends : [...ends, ...placed.centre, placed.sweep * done];
+}
+
+function drawBox(context: CanvasRenderingContext2D, [[x0, y0], [x1, y1]]: readonly [XY, XY], colours: Colours): void {
+  context.strokeStyle = context.fillStyle = colours.chosen;
+  context.lineWidth = 1.5;
+  context.setLineDash([5, 4]);
+  context.strokeRect(x0, y0, x1 - x0, y1 - y0);
+  context.setLineDash([]);
+  context.globalAlpha = 0.1;
+  context.fillRect(x0, y0, x1 - x0, y1 - y0);
+  context.globalAlpha = 1;
 }
 
 function drawHandle(

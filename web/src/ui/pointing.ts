@@ -3,13 +3,15 @@ import { type Grabbed, listenTo } from "../gestures.ts";
 import type { XY } from "../tape.ts";
 import type { Canvas } from "./canvas.ts";
 import type { Desk } from "./desk.ts";
-import { micrometres, millimetres, nearest } from "./geometry.ts";
+import { micrometres, millimetres, nearest, type Shape, touches } from "./geometry.ts";
 import { dragged, type Handle } from "./handles.ts";
 
 /** A pointer finds a contour within so many pixels, a handle within so many; a finger is thicker: 44 across. */
 const REACH = 10;
 const GRIP = 14;
 const FINGER = 22;
+/** A box of fewer pixels is none. */
+const STILL = 4;
 
 export function listenToPointers(element: HTMLCanvasElement, canvas: Canvas, desk: Desk): void {
   const { view, overlay } = canvas;
@@ -42,7 +44,37 @@ export function listenToPointers(element: HTMLCanvasElement, canvas: Canvas, des
     desk.choose({ contours: after });
   };
 
+  /** A box chooses what lies in it, all of it; drawn to the left, also what it touches. */
+  const boxed = (from: XY, event: PointerEvent): Grabbed => {
+    const more = event.ctrlKey || event.metaKey ? desk.chosen : [];
+    let to = from;
+    return {
+      move: (now) => {
+        to = now;
+        canvas.box = [from, to];
+      },
+      end: (isKept) => {
+        canvas.box = undefined;
+        if (!isKept) return;
+        if (Math.hypot(to[0] - from[0], to[1] - from[1]) < STILL) choose(find(from, REACH), event.shiftKey || more.length > 0);
+        else desk.choose({ contours: [...new Set([...more, ...within(from, to)])] });
+      },
+    };
+  };
+
+  const within = (from: XY, to: XY): number[] => {
+    const [x0, y0] = view.toPlace([Math.min(from[0], to[0]), Math.max(from[1], to[1])]);
+    const [x1, y1] = view.toPlace([Math.max(from[0], to[0]), Math.min(from[1], to[1])]);
+    const isTouching = to[0] < from[0];
+    const isWithin = ({ box: [left, bottom, right, top] }: Shape): boolean =>
+      left >= x0 && right <= x1 && bottom >= y0 && top <= y1;
+    return [...desk.shapes.values()]
+      .filter((shape) => (isTouching ? touches(shape, [x0, y0, x1, y1], view.scale) : isWithin(shape)))
+      .map(({ contour }) => contour.id);
+  };
+
   const grab = (pixel: XY, event: PointerEvent): Grabbed | undefined => {
+    if (canvas.isBoxing || event.shiftKey) return boxed(pixel, event);
     const distance = ({ place }: Handle): number => {
       const [x, y] = view.toPixel(place);
       return Math.hypot(x - pixel[0], y - pixel[1]);

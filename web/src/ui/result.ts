@@ -8,6 +8,7 @@ import { readTape } from "../tape.ts";
 import { WalkBar } from "../walkbar.ts";
 import type { Canvas } from "./canvas.ts";
 import type { Cutting } from "./cutting.ts";
+import { Drawer } from "./drawer.ts";
 import { micrometres } from "./geometry.ts";
 import { Gone, Refusal, type Server } from "./server.ts";
 import type { TellTale } from "./told.ts";
@@ -51,7 +52,7 @@ export class Results {
     this.#chooser.onChange((choice) =>
       canvas.showBlock(choice && "block" in choice ? this.#layout.blocks[choice.block - 1] : undefined),
     );
-    bindTabs(() => void this.#bringSheet());
+    new Drawer(() => void this.#bringSheet());
   }
 
   /** Shows how far the run is, or what came of it. */
@@ -168,28 +169,4 @@ function figures({ blocks, stops, length, seconds }: Result): string {
   const minutes = Math.round(seconds / 60);
   const time = minutes < 60 ? w("minutes", minutes) : w("hours", Math.floor(minutes / 60), String(minutes % 60).padStart(2, "0"));
   return w("figures", blocks, stops, length.toFixed(1), time);
-}
-
-/** One panel of several is seen; arrow keys go from tab to tab. */
-function bindTabs(selected: () => void): void {
-  const tabs = [...document.querySelectorAll<HTMLElement>("[role=tab]")];
-  const select = (tab: HTMLElement): void => {
-    document.body.dataset["panel"] = tab.getAttribute("aria-controls") ?? "";
-    for (const each of tabs) {
-      each.ariaSelected = String(each === tab);
-      each.tabIndex = each === tab ? 0 : -1;
-      get(each.getAttribute("aria-controls") ?? "").hidden = each !== tab;
-    }
-    selected();
-  };
-  tabs.forEach((tab, at) => {
-    tab.addEventListener("click", () => select(tab));
-    tab.addEventListener("keydown", (event) => {
-      const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
-      const next = by && tabs[(at + by + tabs.length) % tabs.length];
-      if (!next) return;
-      select(next);
-      next.focus();
-    });
-  });
 }

@@ -3,6 +3,7 @@ import type { XY } from "../tape.ts";
 import type { View } from "../view.ts";
 import type { Desk } from "./desk.ts";
 import {
+  boxOf,
   goesWith,
   lengthOfAll,
   micrometres,
@@ -15,7 +16,7 @@ import {
 } from "./geometry.ts";
 import { arrowHead, isSeen, Pen, pathOf, seenBox } from "./pen.ts";
 import type { Planned, Point } from "./types.ts";
-import type { WireWays } from "./ways.ts";
+import { MOST as MOST_WAYS, type WireWays } from "./ways.ts";
 
 export interface Colours {
   wire: string;
@@ -34,8 +35,13 @@ const STEP = 100;
 const LARGE = 10;
 /** Arrow heads stand this far apart, pixels. */
 const ARROWS = 110;
-/** Numbers stand no nearer to each other than this, pixels. */
-const CELL: XY = [22, 15];
+/** The height of a number, and of a cell in which they are looked for, pixels; a number is no wider. */
+const LABEL = 12;
+const CELL = 48;
+/** Smaller letters are not drawn, pixels. A letter's size for the height of a capital; the distance of lines. */
+const READABLE = 4;
+const CAPITALS = 1.37;
+const LINE = 1.67;
 const HOLE = 5;
 /** Lines that a tab is drawn of. */
 const TAB_PARTS = 24;
@@ -71,9 +77,11 @@ export class Sketch {
     }
   }
 
-  /** Numbers of the contours in the window, the smallest left out. */
+  /** Numbers of the contours in the window, where they are many without the smallest. */
   inView(view: View, size: XY): number[] {
-    return [...this.#seen(view, size)].filter((each) => each.size > LARGE).map(({ shape }) => shape.contour.id);
+    const seen = [...this.#seen(view, size)];
+    const wanted = seen.length > MOST_WAYS ? seen.filter((each) => each.size > LARGE) : seen;
+    return wanted.map(({ shape }) => shape.contour.id);
   }
 
   *draw(context: CanvasRenderingContext2D, view: View, size: XY): Generator<undefined> {
@@ -82,6 +90,7 @@ export class Sketch {
     const seen = [...this.#seen(view, size)];
     yield;
     context.lineJoin = context.lineCap = "round";
+    yield* this.#left(context, view, size, colours);
     yield* this.#bands(context, view, seen, colours);
     yield* this.#lines(context, view, seen, colours);
     yield* this.#marks(context, view, seen, colours);
@@ -90,7 +99,7 @@ export class Sketch {
   }
 
   *#bands(context: CanvasRenderingContext2D, view: View, seen: readonly Seen[], { wire }: Colours): Generator<undefined> {
-    const width = this.#wire() * view.scale;
+    const width = this.#kerf() * view.scale;
     context.strokeStyle = wire;
     for (const { shape, planned, size } of seen) {
       if (!planned?.cut || size < LARGE) continue;
@@ -107,10 +116,11 @@ export class Sketch {
     context.globalAlpha = 1;
   }
 
-  /** The wire's diameter, µm. */
-  #wire(): number {
-    const { wire, offset } = this.#desk.edited.job.machine ?? {};
-    return (typeof wire === "number" ? wire : typeof offset === "number" ? 2 * offset : 0) * 1000;
+  /** The width of the cut, µm: the wire and a spark gap on each side. */
+  #kerf(): number {
+    const { wire, gap, offset } = this.#desk.edited.job.machine ?? {};
+    const number = (value: unknown): number => (typeof value === "number" ? value : 0);
+    return (wire === undefined ? 2 * number(offset) : number(wire) + 2 * number(gap)) * 1000;
   }
 
   *#lines(context: CanvasRenderingContext2D, view: View, seen: readonly Seen[], colours: Colours): Generator<undefined> {
@@ -191,8 +201,8 @@ export class Sketch {
 
   /** The place in the order of cutting, beside each start hole where there is room. */
   *#numbers(context: CanvasRenderingContext2D, view: View, seen: readonly Seen[], colours: Colours): Generator<undefined> {
-    const taken = new Set<number>();
-    context.font = "12px system-ui, sans-serif";
+    const labels = new Labels();
+    context.font = `${LABEL}px system-ui, sans-serif`;
     context.textBaseline = "middle";
     context.lineWidth = 3;
     context.strokeStyle = colours.panel;
@@ -201,15 +211,83 @@ export class Sketch {
     for (const { planned, size } of seen) {
       if (!planned?.cut || !planned.number || size < LARGE) continue;
       const place = planned.hole ?? planned.entry;
-      if (!place) continue;
-      const [x, y] = view.toPixel(micrometres(place));
-      const cell = Math.round(x / CELL[0]) * 65536 + Math.round(y / CELL[1]);
-      if (taken.has(cell)) continue;
-      taken.add(cell);
-      context.strokeText(String(planned.number), x + HOLE + 3, y - HOLE - 3);
-      context.fillText(String(planned.number), x + HOLE + 3, y - HOLE - 3);
+      const text = String(planned.number);
+      const free = place && labels.place(view.toPixel(micrometres(place)), 7 * text.length);
+      if (!free) continue;
+      context.strokeText(text, ...free);
+      context.fillText(text, ...free);
       if (++count % STEP === 0) yield;
     }
+  }
+
+  /** What is not cut: lines, dashed and grey, and what is written. */
+  *#left(context: CanvasRenderingContext2D, view: View, size: XY, colours: Colours): Generator<undefined> {
+    const { edges, notes } = this.#desk.left;
+    const box = seenBox(view, size, 20);
+    context.strokeStyle = context.fillStyle = colours.lead;
+    context.globalAlpha = 0.75;
+    context.lineWidth = 1;
+    context.setLineDash([6, 4]);
+    for (let at = 0; at < edges.length; at += STEP) {
+      const pen = new Pen(view);
+      pen.edges(edges.slice(at, at + STEP).filter((edge) => isSeen(boxOf([edge]), box)));
+      pen.stroke(context);
+      yield;
+    }
+    context.setLineDash([]);
+    context.textBaseline = "alphabetic";
+    for (const { text, place, up } of notes) {
+      const high = Math.hypot(...up) * 1000 * view.scale;
+      const [x, y] = micrometres(place);
+      if (high < READABLE || !isSeen([x, y, x, y], seenBox(view, size, high * text.length))) continue;
+      context.save();
+      context.translate(...view.toPixel([x, y]));
+      context.rotate(Math.atan2(up[0], up[1]));
+      context.font = `${high * CAPITALS}px system-ui, sans-serif`;
+      text.split("\n").forEach((line, row) => {
+        context.fillText(line, 0, row * high * LINE);
+      });
+      context.restore();
+      yield;
+    }
+    context.globalAlpha = 1;
+  }
+}
+
+/** Places for numbers, none over another one. */
+class Labels {
+  /** Boxes by the cells that they reach into. */
+  readonly #taken = new Map<number, (readonly [number, number, number])[]>();
+
+  /** A place beside a pixel for a text of a width, its left end; undefined: there is none. */
+  place([x, y]: XY, width: number): XY | undefined {
+    const right = x + HOLE + 3;
+    const left = x - HOLE - 3 - width;
+    const [above, below] = [y - HOLE - 4, y + HOLE + 5];
+    for (const place of [
+      [right, above],
+      [left, above],
+      [right, below],
+      [left, below],
+    ] as XY[]) {
+      if (this.#take(place, width)) return place;
+    }
+    return undefined;
+  }
+
+  #take([x, y]: XY, width: number): boolean {
+    const cells = [Math.floor(x / CELL), Math.floor((x + width) / CELL)].flatMap((column) =>
+      [-1, 0, 1].map((by) => column * 65536 + Math.floor(y / CELL) + by),
+    );
+    const isTaken = cells.some((cell) =>
+      this.#taken.get(cell)?.some(([u, v, wide]) => x < u + wide + 2 && u < x + width + 2 && Math.abs(y - v) < LABEL + 1),
+    );
+    if (isTaken) return false;
+    for (const column of new Set([Math.floor(x / CELL), Math.floor((x + width) / CELL)])) {
+      const cell = column * 65536 + Math.floor(y / CELL);
+      this.#taken.set(cell, [...(this.#taken.get(cell) ?? []), [x, y, width]]);
+    }
+    return true;
   }
 }
 

@@ -1,13 +1,14 @@
 /** The tree of layers and contours: what is cut, in which order. Only the rows in sight are in the page. */
 import { make } from "../dom.ts";
 import { onFrame } from "../frame.ts";
+import { groups } from "./alike.ts";
 import type { Desk } from "./desk.ts";
 import { change, isCut, type Scope } from "./edits.ts";
 import { isCoarse, onCoarse } from "./look.ts";
-import { contourRow, layerRow } from "./treerow.ts";
+import { alikeRow, contourRow, layerRow } from "./treerow.ts";
 import type { Contour, Layer } from "./types.ts";
 
-type Row = { layer: Layer } | { contour: Contour };
+type Row = { layer: Layer } | { contour: Contour; isWithin: boolean } | { alike: readonly Contour[]; name: string };
 
 /** Rows beyond those in sight. */
 const BEYOND = 4;
@@ -16,6 +17,8 @@ export class Tree {
   readonly #box: HTMLElement;
   readonly #inner = make("div", "rows");
   readonly #folded = new Set<string>();
+  /** Rows of contours that are alike which are open, by their names. */
+  readonly #unfolded = new Set<string>();
   #rows: Row[] = [];
   /** The row that keys are meant for. */
   #active = 0;
@@ -38,10 +41,12 @@ export class Tree {
     box.addEventListener("keydown", (event) => this.#key(event));
     box.addEventListener("contextmenu", (event) => {
       const row = this.#rowOf(event);
-      if (!row || !("contour" in row)) return;
+      if (!row || "layer" in row) return;
       event.preventDefault();
-      if (!this.#desk.chosen.includes(row.contour.id)) this.#desk.choose({ contours: [row.contour.id] });
-      this.onMenu(row.contour.id, event.clientX, event.clientY);
+      const [id, ...others] = idsOf(row);
+      if (id === undefined) return;
+      if (!this.#desk.chosen.includes(id)) this.#desk.choose({ contours: [id, ...others] });
+      this.onMenu(id, event.clientX, event.clientY);
     });
     this.#listenToDrags();
     desk.onChange((news) => {
@@ -62,15 +67,21 @@ export class Tree {
 
   #list(): void {
     const { state, contours } = this.#desk;
-    this.#rows = (state?.layers ?? []).flatMap((layer): Row[] => [
-      { layer },
-      ...(this.#folded.has(layer.name) ? [] : layer.contours).flatMap((id): Row[] => {
-        const contour = contours.get(id);
-        return contour ? [{ contour }] : [];
-      }),
-    ]);
+    this.#rows = (state?.layers ?? []).flatMap((layer): Row[] => [{ layer }, ...this.#within(layer, contours)]);
     this.#active = Math.min(this.#active, Math.max(0, this.#rows.length - 1));
     this.#soon();
+  }
+
+  /** The rows of a layer; contours that are alike have one row. */
+  #within(layer: Layer, contours: ReadonlyMap<number, Contour>): Row[] {
+    if (this.#folded.has(layer.name)) return [];
+    return groups(layer.contours.flatMap((id) => contours.get(id) ?? [])).flatMap((alike): Row[] => {
+      const [contour] = alike;
+      if (!contour || alike.length === 1) return contour ? [{ contour, isWithin: false }] : [];
+      const name = `${layer.name} ${contour.kind} ${contour.size}`;
+      const rows = this.#unfolded.has(name) ? alike.map((each) => ({ contour: each, isWithin: true })) : [];
+      return [{ alike, name }, ...rows];
+    });
   }
 
   /** Brings what was chosen elsewhere into sight. */
@@ -101,13 +112,14 @@ export class Tree {
   }
 
   #row(row: Row, index: number, height: number): HTMLElement {
-    const element = make("div", "layer" in row ? "layer" : "contour");
+    const element = make("div", "layer" in row ? "layer" : "alike" in row ? "alike" : "contour");
     element.role = "treeitem";
     element.id = `row-${index}`;
     element.style.top = `${index * height}px`;
     element.classList.toggle("active", index === this.#active);
     if ("layer" in row) layerRow(element, this.#desk, row.layer, this.#folded.has(row.layer.name));
-    else contourRow(element, this.#desk, row.contour);
+    else if ("alike" in row) alikeRow(element, this.#desk, row.alike, !this.#unfolded.has(row.name));
+    else contourRow(element, this.#desk, row.contour, row.isWithin);
     return element;
   }
 
@@ -123,7 +135,7 @@ export class Tree {
     this.#active = this.#rows.indexOf(row);
     const { classList } = event.target as HTMLElement;
     if (classList.contains("check")) this.#toggle(row);
-    else if (classList.contains("fold") && "layer" in row) this.#fold(row.layer, !this.#folded.has(row.layer.name));
+    else if (classList.contains("fold")) this.#fold(row, undefined);
     else if (event.shiftKey) this.#range(before, this.#active);
     else this.#choose(row, event.ctrlKey || event.metaKey);
     this.#soon();
@@ -134,23 +146,24 @@ export class Tree {
       if (row.layer.contours.length) this.#desk.choose({ layer: row.layer.name });
       return;
     }
-    const { id } = row.contour;
+    const ids = idsOf(row);
     const { chosen } = this.#desk;
-    const others = chosen.filter((each) => each !== id);
-    this.#desk.choose({ contours: !more ? [id] : others.length < chosen.length ? others : [...chosen, id] });
+    const others = chosen.filter((each) => !ids.includes(each));
+    this.#desk.choose({ contours: !more ? ids : others.length < chosen.length ? others : [...chosen, ...ids] });
   }
 
   #range(from: number, to: number): void {
     const rows = this.#rows.slice(Math.min(from, to), Math.max(from, to) + 1);
-    this.#desk.choose({ contours: rows.flatMap((row) => ("contour" in row ? [row.contour.id] : [])) });
+    this.#desk.choose({ contours: [...new Set(rows.flatMap((row) => ("layer" in row ? [] : idsOf(row))))] });
   }
 
   /** Cut or not. */
   #toggle(row: Row): void {
     const { edited, contours } = this.#desk;
-    if ("contour" in row) {
-      const scope = { contours: [row.contour.id] };
-      this.#desk.edit(change(edited, scope, { cut: !isCut(edited, row.contour) }, contours));
+    if (!("layer" in row)) {
+      const scope = { contours: idsOf(row) };
+      const cut = !scope.contours.every((id) => isCut(edited, contours.get(id)));
+      this.#desk.edit(change(edited, scope, { cut }, contours));
       return;
     }
     const { name, contours: ids } = row.layer;
@@ -161,9 +174,14 @@ export class Tree {
     this.#desk.edit(change(freed, { layer: name }, { cut: cut ? undefined : false }, contours));
   }
 
-  #fold(layer: Layer, isFolded: boolean): void {
-    if (isFolded) this.#folded.add(layer.name);
-    else this.#folded.delete(layer.name);
+  /** Folds a row, or not; undefined: the other way. */
+  #fold(row: Row, isFolded: boolean | undefined): void {
+    const flip = (names: Set<string>, name: string, isWanted: boolean | undefined): void => {
+      if (isWanted ?? !names.has(name)) names.add(name);
+      else names.delete(name);
+    };
+    if ("layer" in row) flip(this.#folded, row.layer.name, isFolded);
+    else if ("alike" in row) flip(this.#unfolded, row.name, isFolded === undefined ? undefined : !isFolded);
     this.#list();
   }
 
@@ -190,7 +208,7 @@ export class Tree {
     } else if (event.key === " ") {
       this.#toggle(row);
     } else if (event.key === "ArrowLeft" || event.key === "ArrowRight") {
-      if ("layer" in row) this.#fold(row.layer, event.key === "ArrowLeft");
+      this.#fold(row, event.key === "ArrowLeft");
     } else {
       return;
     }
@@ -231,5 +249,10 @@ export class Tree {
 function isOf(row: Row | undefined, scope: Scope): boolean {
   if (!row || scope === "all") return false;
   if ("layer" in scope) return "layer" in row && row.layer.name === scope.layer;
-  return "contour" in row && scope.contours.includes(row.contour.id);
+  return !("layer" in row) && idsOf(row).some((id) => scope.contours.includes(id));
+}
+
+/** The contours of a row. */
+function idsOf(row: { contour: Contour } | { alike: readonly Contour[] }): number[] {
+  return "alike" in row ? row.alike.map(({ id }) => id) : [row.contour.id];
 }

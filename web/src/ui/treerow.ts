@@ -39,13 +39,32 @@ export function layerRow(element: HTMLElement, desk: Desk, layer: Layer, isFolde
   element.append(left);
 }
 
-/** Writes a contour into its row. */
-export function contourRow(element: HTMLElement, desk: Desk, contour: Contour): void {
+/** Writes contours that are alike into their row. */
+export function alikeRow(element: HTMLElement, desk: Desk, contours: readonly Contour[], isFolded: boolean): void {
+  const { edited, chosen } = desk;
+  const [first] = contours;
+  if (!first) return;
+  const cut = contours.map((each) => isCut(edited, each));
+  element.ariaLevel = "2";
+  element.ariaChecked = cut.every(Boolean) ? "true" : cut.some(Boolean) ? "mixed" : "false";
+  element.ariaExpanded = String(!isFolded);
+  element.ariaSelected = String(contours.some(({ id }) => chosen.includes(id)));
+  const glyph = make("span", "glyph", GLYPHS[first.kind]);
+  glyph.ariaHidden = "true";
+  element.append(make("span", "fold", isFolded ? "▸" : "▾"), make("span", "check"), glyph);
+  element.append(make("span", "title", titleOf(first)), make("b", "times", w("times", contours.length)));
+  const errors = contours.flatMap(({ id }) => desk.planned(id)?.error ?? []);
+  if (errors[0]) element.append(faultOf(inPresent(errors[0].message)));
+}
+
+/** Writes a contour into its row; `isWithin`: below that of all that are alike. */
+export function contourRow(element: HTMLElement, desk: Desk, contour: Contour, isWithin: boolean): void {
+  element.classList.toggle("within", isWithin);
   const { edited } = desk;
   const planned = desk.planned(contour.id);
   const cut = isCut(edited, contour);
   const [wanted = {}] = own(edited, { contours: [contour.id] });
-  element.ariaLevel = "2";
+  element.ariaLevel = isWithin ? "3" : "2";
   element.ariaChecked = String(cut);
   element.ariaSelected = String(desk.chosen.includes(contour.id));
   element.draggable = cut;
@@ -55,10 +74,13 @@ export function contourRow(element: HTMLElement, desk: Desk, contour: Contour): 
   glyph.ariaHidden = "true";
   element.append(number, make("span", "check"), glyph, make("span", "title", titleOf(contour)));
   if (wanted.offset !== undefined) element.append(make("span", "own", `R ${shown(wanted.offset)}`));
-  if (!planned?.error) return;
+  if (planned?.error) element.append(faultOf(inPresent(planned.error.message)));
+}
+
+function faultOf(message: string): HTMLElement {
   const fault = make("span", "fault", "⚠");
-  fault.title = inPresent(planned.error.message);
-  fault.ariaLabel = inPresent(planned.error.message);
+  fault.title = message;
+  fault.ariaLabel = message;
   fault.role = "img";
-  element.append(fault);
+  return fault;
 }

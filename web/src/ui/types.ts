@@ -127,6 +127,19 @@ export interface Match {
   readonly confirm: boolean;
 }
 
+/** What is written on a drawing: its text, where it begins, and how high a letter is, and which way up, mm. */
+export interface Note {
+  readonly text: string;
+  readonly place: Point;
+  readonly up: Point;
+}
+
+/** What is not cut. */
+export interface Left {
+  readonly edges: readonly Edge[];
+  readonly notes: readonly Note[];
+}
+
 export interface State {
   readonly rev: number;
   readonly name: string;
@@ -139,6 +152,7 @@ export interface State {
   readonly layers: readonly Layer[];
   readonly contours: readonly Contour[];
   readonly starts: readonly Point[];
+  readonly left: Left;
   readonly report: readonly Line[];
   readonly job: Job;
   readonly matches: readonly Match[];

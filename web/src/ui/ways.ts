@@ -4,7 +4,7 @@ import { edgesOf } from "./geometry.ts";
 import { Gone, Refusal, type Server } from "./server.ts";
 
 /** So many contours' ways are asked for at most: each takes the server some milliseconds. */
-const MOST = 200;
+export const MOST = 200;
 
 type Way = readonly (readonly number[])[];
 
