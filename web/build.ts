@@ -5,6 +5,7 @@ import { copyFileSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync,
 import { basename, dirname, join } from "node:path";
 import { type BuildOptions, build } from "esbuild";
 import { Marked } from "marked";
+import { type Card, pictureOf, withCard } from "./card.ts";
 import { ascii, Board, bytesOf, ROM_BYTES, readNames } from "./src/board.ts";
 import { CATALOGUE } from "./src/catalogue.ts";
 import { pack } from "./src/link.ts";
@@ -68,38 +69,83 @@ async function parts(): Promise<Part[]> {
     });
 }
 
-/** A manual: its file in docs/, and the words around it. */
-interface Manual {
+/** A page made of a file of docs/, and the words around it. */
+interface Page {
   source: string;
   language: string;
   title: string;
-  back: string;
-  attempt: string;
-  attemptName: string;
 }
 
-/** The manuals by the names of their pages. */
-const MANUALS: Record<string, Manual> = {
-  "manual.html": {
-    source: "docs/manual.md",
-    language: "en",
-    title: "The SKG language",
-    back: "SKG in the browser",
-    attempt: "try",
-    attemptName: "try this program in the machine",
-  },
-  "manual.zh.html": {
-    source: "docs/zh/manual.md",
-    language: "zh-CN",
-    title: "SKG 语言",
-    back: "浏览器中的 SKG",
-    attempt: "运行",
-    attemptName: "在机器上运行这个程序",
-  },
+/** The words around a page, by its language. */
+const AROUND: Record<string, { back: string; attempt: string; attemptName: string }> = {
+  en: { back: "SKG in the browser", attempt: "try", attemptName: "try this program in the machine" },
+  "zh-CN": { back: "浏览器中的 SKG", attempt: "运行", attemptName: "在机器上运行这个程序" },
 };
 
-/** A manual as a page; behind every program of it stands a link that runs it. */
-async function manual({ source, language, title, back, attempt, attemptName }: Manual): Promise<string> {
+/** The pages that stand beside the machine, too, by their names; `about` fits on a screen. */
+const PAGES: Record<string, Page> = {
+  "manual.html": { source: "docs/manual.md", language: "en", title: "The SKG language" },
+  "manual.zh.html": { source: "docs/zh/manual.md", language: "zh-CN", title: "SKG 语言" },
+  "about.html": { source: "docs/about.md", language: "en", title: "What is SKG?" },
+  "about.zh.html": { source: "docs/zh/about.md", language: "zh-CN", title: "SKG 是什么？" },
+};
+
+/** Pages that these lead to. They are not kept for visits without a network, and not in skg.html. */
+const FARTHER: Record<string, Page> = {
+  "shop.html": { source: "docs/shop.md", language: "en", title: "From a drawing to a cut part" },
+  "shop.zh.html": { source: "docs/zh/shop.md", language: "zh-CN", title: "从图纸到零件" },
+  "pico.html": { source: "docs/pico.md", language: "en", title: "The machine on a Raspberry Pi Pico" },
+  "pico.zh.html": { source: "docs/zh/pico.md", language: "zh-CN", title: "用 Raspberry Pi Pico 当机器" },
+};
+
+/** Where a link of docs/ leads in the pages: an example runs, a page that is there opens; others are words. */
+function addressOf(href: string, source: string): string | undefined {
+  if (/^(#|https?:)/.test(href)) return href;
+  const example = /examples\/([\w-]+)\.skg$/.exec(href)?.[1];
+  if (example) return `./#part=${example}&run`;
+  const file = join(dirname(source), href.replace(/#.*/, ""));
+  const found = Object.entries({ ...PAGES, ...FARTHER }).find(([, page]) => page.source === file)?.[0];
+  return found && found + (/#.*/.exec(href)?.[0] ?? "");
+}
+
+/** The ROM's bytes by what they are for; the table is that of docs/firmware.md. */
+const USES: readonly (readonly [english: string, chinese: string, files: string])[] = [
+  ["arithmetic", "算术", "float decimal calc ops consts value round"],
+  ["points, lines, circles", "点、直线、圆", "geom"],
+  ["the language, the editor", "语言、编辑", "parser lexer program data run monitor words"],
+  ["cutting", "切割", "route corner cut ends repeat"],
+  ["smooth curves", "光滑曲线", "fit tol"],
+  ["tape, board", "纸带、单板机", ""],
+  ["free", "空余", "free"],
+];
+
+/** A bar of all bytes, and its words below. */
+function bytesBar(language: string): string {
+  const table = /```bytes\n([^]*?)```/.exec(readFileSync("docs/firmware.md", "utf8"))?.[1] ?? "";
+  const rows = [...table.matchAll(/^ *(\w+)\.asm +(\d+)/gm)].map(([, file = "", bytes]) => [file, Number(bytes)] as const);
+  const free = Number(/free +(\d+)/.exec(table)?.[1]);
+  const named = new Set(USES.flatMap(([, , files]) => files.split(" ")));
+  const sums = USES.map(([, , files]) => {
+    if (files === "free") return free;
+    const wanted = files.split(" ");
+    return rows.filter(([file]) => (files ? wanted.includes(file) : !named.has(file))).reduce((sum, [, bytes]) => sum + bytes, 0);
+  });
+  if (sums.reduce((sum, bytes) => sum + bytes, 0) !== ROM_BYTES)
+    throw new Error(`docs/firmware.md: ${sums} are not the ROM's bytes`);
+  let at = 0;
+  const bars = sums.map((bytes, use) => {
+    at += bytes;
+    return `<rect class="u${use}" x="${at - bytes}" width="${bytes}" height="400"/>`;
+  });
+  const words = USES.map(
+    ([english, chinese], use) => `<li class="u${use}"><b>${sums[use]}</b> ${language === "en" ? english : chinese}</li>`,
+  );
+  return `<svg class="bytes" viewBox="0 0 ${ROM_BYTES} 400" preserveAspectRatio="none" aria-hidden="true">${bars.join("")}</svg><ul class="bytes">${words.join("")}</ul>`;
+}
+
+/** A page of docs/; behind every program of it stands a link that runs it. */
+async function pageOf({ source, language, title }: Page): Promise<string> {
+  const { back, attempt, attemptName } = AROUND[language] as (typeof AROUND)[string];
   const text = readFileSync(source, "utf8");
   const links = new Map<string, string>();
   for (const [, program = ""] of text.matchAll(/^```skg.*\n([^]*?)^```$/gm)) {
@@ -127,24 +173,54 @@ async function manual({ source, language, title, back, attempt, attemptName }: M
       },
       link({ href, tokens }) {
         const inside = this.parser.parseInline(tokens);
-        // (other pages of the repository are not in this one)
-        return /^(#|https?:)/.test(href) ? `<a href="${href}">${inside}</a>` : inside;
+        const address = addressOf(href, source);
+        return address ? `<a href="${address}">${inside}</a>` : inside;
       },
       image({ href, text: name }) {
         const picture = basename(href);
         copyFileSync(join(dirname(source), href), join(OUT, picture));
         return `<img src="${picture}" alt="${escaped(name)}" loading="lazy">`;
       },
+      html({ text: html }) {
+        return html.includes("<!-- bytes -->") ? bytesBar(language) : html;
+      },
     },
   });
   const body = await pages.parse(text);
+  const isAbout = basename(source) === "about.md";
+  // (a section of what fits on a screen is one of its columns' pieces)
+  const content = isAbout ? body.replace(/<h2[^]*?(?=<h2|$)/g, (section) => `<section>${section}</section>`) : body;
   return `<!doctype html>
 <html lang="${language}"><head><meta charset="utf-8">
 <meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'self'; img-src 'self'; base-uri 'none'; form-action 'none'">
 <meta name="viewport" content="width=device-width, initial-scale=1"><title>${title}</title>
 <link rel="icon" href="icon.svg" type="image/svg+xml"><link rel="stylesheet" href="manual.css"></head>
-<body><nav><a href="./">${back}</a></nav><main>${body}</main></body></html>
+<body${isAbout ? ' class="about"' : ""}><nav><a href="./">${back}</a></nav><main>${content}</main></body></html>
 `;
+}
+
+/** The card of the page itself. */
+const CARD: Card = {
+  title: "SKG: a numerical-control language of 1983, in your browser",
+  description: "Cut a part by wire: write a few lines of geometry, and the 8080 of 1983 computes each block.",
+  address: "./",
+  picture: "part-wrench.png",
+};
+
+/** For each part an address with a card: its title and picture. Who follows it comes to the part. */
+function writeCards(found: readonly Part[]): void {
+  const titles = new Map(CATALOGUE.flatMap((group) => group.parts.map(({ name, title }) => [name, title[0]] as const)));
+  for (const { name } of found) {
+    const { items } = readTape(readFileSync(join("examples", `${name}.3b`), "latin1"));
+    writeFileSync(join(OUT, `part-${name}.png`), pictureOf(layOut(items).layout));
+    const card = { ...CARD, title: `${titles.get(name)}: SKG`, address: `part-${name}.html`, picture: `part-${name}.png` };
+    const page = `<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1"><title>SKG</title><link rel="icon" href="icon.svg" type="image/svg+xml">
+<meta http-equiv="refresh" content="0; url=./#part=${name}&amp;run"></head>
+<body><p><a href="./#part=${name}&amp;run">${titles.get(name)}</a></p></body></html>
+`;
+    writeFileSync(join(OUT, `part-${name}.html`), withCard(page, card));
+  }
 }
 
 /** Every part has its place in the catalogue. */
@@ -156,7 +232,7 @@ function compare(found: string[], listed: string[]): void {
 }
 
 /** The files inside the one file, in base64; with the pictures of the manuals. */
-const INSIDE = ["worker.js", "board.wasm", "walk.wasm", "skg.bin", "skg.sym", "parts.json", ...Object.keys(MANUALS)];
+const INSIDE = ["worker.js", "board.wasm", "walk.wasm", "skg.bin", "skg.sym", "parts.json", ...Object.keys(PAGES)];
 
 /** The whole page as one file, skg.html: it runs from a double click, too. */
 async function oneFile(): Promise<void> {
@@ -164,7 +240,7 @@ async function oneFile(): Promise<void> {
   const script = (bundle.outputFiles[0]?.text ?? "").replace(/<\/script/g, "<\\/script");
   const style = readFileSync(join(OUT, "style.css"), "utf8");
   const icon = readFileSync(join(OUT, "icon.svg")).toString("base64");
-  const manuals = Object.fromEntries(Object.keys(MANUALS).map((file) => [file, manualAlone(file)]));
+  const manuals = Object.fromEntries(Object.keys(PAGES).map((file) => [file, manualAlone(file)]));
   const pictures = new Set(Object.values(manuals).flatMap((text) => [...text.matchAll(PICTURE)].map(([, file = ""]) => file)));
   const pieces = [...INSIDE, ...pictures].map((file) => {
     const text = manuals[file];
@@ -190,6 +266,7 @@ async function oneFile(): Promise<void> {
 function manualAlone(file: string): string {
   const style = readFileSync(join(OUT, "manual.css"), "utf8");
   return readFileSync(join(OUT, file), "utf8")
+    .replace(/<a href="([\w.]+\.html)[^"]*">(.*?)<\/a>/g, (link, to: string, words: string) => (FARTHER[to] ? words : link))
     .replace(/<meta http-equiv[^>]*>\n/, "")
     .replace(/<link rel="icon"[^>]*>/, "")
     .replace(/<link rel="stylesheet"[^>]*>/, () => `<style>${style}</style>`);
@@ -202,7 +279,8 @@ async function main(): Promise<void> {
   readNames(readFileSync("roms/skg.sym", "latin1")); // (says what is missing)
   for (const file of ["skg.bin", "skg.sym"]) copyFileSync(join("roms", file), join(OUT, file));
   for (const wasm of ["board.wasm", "walk.wasm"]) copyFileSync(join("web/wasm", wasm), join(OUT, wasm));
-  for (const file of ["index.html", "icon.svg", "manual.css"]) copyFileSync(join("web/src", file), join(OUT, file));
+  for (const file of ["icon.svg", "manual.css"]) copyFileSync(join("web/src", file), join(OUT, file));
+  writeFileSync(join(OUT, "index.html"), withCard(readFileSync("web/src/index.html", "utf8"), CARD));
   writeFileSync(
     join(OUT, "manifest.webmanifest"),
     JSON.stringify({
@@ -221,7 +299,7 @@ async function main(): Promise<void> {
     CATALOGUE.flatMap((group) => group.parts.map(({ name }) => name)),
   );
   writeFileSync(join(OUT, "parts.json"), JSON.stringify(found));
-  for (const [file, one] of Object.entries(MANUALS)) writeFileSync(join(OUT, file), await manual(one));
+  for (const [file, one] of Object.entries(PAGES)) writeFileSync(join(OUT, file), await pageOf(one));
   const entryPoints = ["web/src/main.ts", "web/src/style.css"];
   await build({ ...common, format: "esm", splitting: true, entryPoints, outdir: OUT, chunkNames: "[name]" });
   await build({ ...common, format: "iife", entryPoints: ["web/src/worker.ts"], outdir: OUT });
@@ -237,6 +315,8 @@ async function main(): Promise<void> {
     define: { FILES: JSON.stringify(["./", ...files]), VERSION: JSON.stringify(hash.digest("hex").slice(0, 12)) },
   });
   await oneFile();
+  for (const [file, one] of Object.entries(FARTHER)) writeFileSync(join(OUT, file), await pageOf(one));
+  writeCards(found);
   if (!existsSync(join(OUT, "main.js"))) throw new Error("no main.js");
 }
 

@@ -22,6 +22,7 @@ PAGES = [
     (DOCS / "manual.md", DOCS / "zh" / "manual.md"),
     (DOCS / "shop.md", DOCS / "zh" / "shop.md"),
     (DOCS / "pico.md", DOCS / "zh" / "pico.md"),
+    (DOCS / "about.md", DOCS / "zh" / "about.md"),
     (ROOT / "README.md", ROOT / "README.zh.md"),
 ]
 

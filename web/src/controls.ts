@@ -4,7 +4,7 @@ import { tooLarge } from "./files.ts";
 import { t } from "./language.ts";
 import { say } from "./message.ts";
 import type { Opening } from "./opening.ts";
-import { copyLink, save } from "./saving.ts";
+import { copyEmbed, copyLink, save } from "./saving.ts";
 import { bindShell, view } from "./shell.ts";
 import type { Settings } from "./store.ts";
 import type { Teletype } from "./teletype.ts";
@@ -21,8 +21,8 @@ export function bind(bench: Workbench, teletype: Teletype, opening: Opening, set
   onClick("revert", () => bench.revert());
   onClick("reset", () => bench.session.reset());
   onClick("tear", () => teletype.clear());
-  onClick("copy-link", () => void copyLink(bench.editor.text, false));
-  onClick("copy-embed", () => void copyLink(bench.editor.text, true));
+  onClick("copy-link", () => void copyLink(bench));
+  onClick("copy-embed", () => void copyEmbed(bench));
   for (const button of document.querySelectorAll<HTMLElement>("[data-save]")) {
     button.addEventListener("click", () => void save(button.dataset["save"] ?? "", bench, settings, works));
   }

@@ -41,6 +41,8 @@ const WORDS = {
   dark: ["Dark", "深色"],
   language: ["Language", "语言"],
   manual: ["Manual", "手册"],
+  about: ["What is this?", "这是什么？"],
+  aboutFile: ["about.html", "about.zh.html"],
   manualFile: ["manual.html", "manual.zh.html"],
   machine: ["Machine", "机器"],
   inside: ["Inside the machine", "机器内部"],

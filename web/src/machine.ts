@@ -93,7 +93,8 @@ export class Machine {
         this.#listener.state(news.taken === this.#taken ? news.state : "busy");
         break;
       case "memory":
-        this.#listener.memory(news.ram, news.program, news.rom);
+        // (what was there before a load says nothing of what was loaded)
+        if (news.taken === this.#taken) this.#listener.memory(news.ram, news.program, news.rom);
         break;
       case "checked":
         this.#answers.get(news.id)?.(news.refused);

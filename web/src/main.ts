@@ -4,7 +4,7 @@ import { get, onClick } from "./dom.ts";
 import { Inside } from "./inside.ts";
 import { keepSafe } from "./keeping.ts";
 import { preferred, t } from "./language.ts";
-import { openManual, turnManual } from "./manual.ts";
+import { openManual, openReading, turnManual } from "./manual.ts";
 import { say, warn } from "./message.ts";
 import { Opening } from "./opening.ts";
 import { closePane } from "./pane.ts";
@@ -75,10 +75,15 @@ rove(get("shelf"));
 bind(bench, teletype, opening, settings, works);
 for (const button of document.querySelectorAll(".pane .close")) button.addEventListener("click", closePane);
 onClick("machine", () => void inside.open(session));
-get("manual").addEventListener("click", (event) => {
-  event.preventDefault();
-  openManual();
-});
+for (const [id, word] of [
+  ["manual", "manualFile"],
+  ["about", "aboutFile"],
+] as const) {
+  get(id).addEventListener("click", (event) => {
+    event.preventDefault();
+    openReading(word);
+  });
+}
 
 /** On a small screen the manual stands in front of it. */
 function showDrawing(): void {

@@ -1,19 +1,29 @@
-/** The manual beside the page; its *try* links run in the machine here. */
+/** Pages beside the machine, one at a time: the manual, and what this is; their links to programs run in the machine here. */
 import { get } from "./dom.ts";
-import { t } from "./language.ts";
+import { t, type Word } from "./language.ts";
 import { closePane, openPane } from "./pane.ts";
 import { insidePage } from "./pieces.ts";
 import { paintFrame } from "./theme.ts";
 
+/** The words that name the files of the two pages. */
+export type Reading = Extract<Word, "manualFile" | "aboutFile">;
+
+let reading: Reading = "manualFile";
+
 const frame = (): HTMLIFrameElement => get<HTMLIFrameElement>("manual-frame");
 
 /** The manual in the page's language; `chapter`: at its heading. */
-export function openManual(chapter = 0): void {
+export const openManual = (chapter = 0): void => openReading("manualFile", chapter);
+
+export function openReading(word: Reading, chapter = 0): void {
   openPane("manual-pane");
+  reading = word;
   const page = frame();
-  const file = t("manualFile");
+  const file = t(word);
   const isThere = page.dataset["file"] === file;
   page.dataset["file"] = file;
+  page.title = t(word === "aboutFile" ? "about" : "manual");
+  get<HTMLAnchorElement>("manual-alone").href = file;
   const show = (): void => {
     paintFrame(page);
     page.contentDocument?.querySelector(`[id^="${chapter}-"]`)?.scrollIntoView();
@@ -25,13 +35,15 @@ export function openManual(chapter = 0): void {
   }
   page.addEventListener("load", show, { once: true });
   const text = insidePage(file);
-  if (text === undefined) page.src = file;
-  else page.srcdoc = text;
+  if (text === undefined) {
+    page.removeAttribute("srcdoc");
+    page.src = file;
+  } else page.srcdoc = text;
 }
 
 /** The page's language has changed. */
 export function turnManual(): void {
-  if (!get("manual-pane").hidden) openManual();
+  if (!get("manual-pane").hidden) openReading(reading);
 }
 
 /** A link to a program runs it in this page, and leaves the manual where it is; one to a heading goes there in skg.html, too,
@@ -52,5 +64,11 @@ function follow(event: MouseEvent): void {
   } else if (href === "./") {
     event.preventDefault();
     closePane();
+  } else if (/^(manual|about)\b/.test(href)) {
+    event.preventDefault();
+    openReading(href.startsWith("about") ? "aboutFile" : "manualFile");
+  } else if (link) {
+    // (other pages are read in a window of their own)
+    link.target = "_blank";
   }
 }

@@ -11,6 +11,9 @@ function inside(name: string): ArrayBuffer | undefined {
   return text ? Uint8Array.from(atob(text), (character) => character.charCodeAt(0)).buffer : undefined;
 }
 
+/** The page is one file, skg.html. */
+export const isOneFile = (): boolean => insideCode("worker.js") !== undefined;
+
 /** The text of a file that lies in the page. */
 export function insideText(name: string): string | undefined {
   const bytes = inside(name);

@@ -39,7 +39,7 @@ export interface Refused {
  * changed; `rom` names the ROM that it belongs to. */
 export type News =
   | { kind: "out"; paper: string; punched: Punched[]; state: State; taken: number; cycles: number }
-  | { kind: "memory"; ram: Uint8Array; program: string; rom: string }
+  | { kind: "memory"; ram: Uint8Array; program: string; rom: string; taken: number }
   | { kind: "checked"; id: number; refused: Refused[] }
   | { kind: "look"; look: Look; isHeld: boolean }
   | { kind: "failed"; why: string };
@@ -275,7 +275,7 @@ export class Runner {
   #keep(ram: Uint8Array, program: string): void {
     this.#kept = ram;
     this.#keptProgram = program;
-    this.#tell({ kind: "memory", ram, program, rom: this.#rom });
+    this.#tell({ kind: "memory", ram, program, rom: this.#rom, taken: this.#taken });
   }
 
   /** A program that was typed and RUN in one go is in no memory that the page was told: it is told that while it runs. */

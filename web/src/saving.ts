@@ -5,6 +5,7 @@ import { isoText } from "./iso.ts";
 import { t } from "./language.ts";
 import { MOST, pack } from "./link.ts";
 import { ask, say } from "./message.ts";
+import { isOneFile } from "./pieces.ts";
 import type { Everything, Settings } from "./store.ts";
 import { svgText } from "./svg.ts";
 import type { Workbench } from "./workbench.ts";
@@ -52,16 +53,32 @@ export async function save(kind: string, bench: Workbench, settings: Settings, w
   saveFile(stem + ending, text);
 }
 
-/** Copies the address of a page that runs this program, or what embeds it in another page. */
-export async function copyLink(program: string, isEmbedded: boolean): Promise<void> {
+/** Copies the address of a page that runs this program; that of a part of the list has a card with its picture. */
+export async function copyLink(bench: Workbench): Promise<void> {
+  const { part } = bench;
+  // (a page in one file has no other pages beside it)
+  const hasCard = part !== undefined && !isOneFile();
+  const url = hasCard ? new URL(`part-${part}.html`, document.baseURI).href : await addressOf(bench.editor.text, "");
+  if (url) await copy(url);
+}
+
+/** Copies what embeds this program in another page: text and drawing side by side, at the size of an article's picture. Its scripts
+ * run, as those of an origin of their own; it can open the whole page, and nothing else. */
+export async function copyEmbed(bench: Workbench): Promise<void> {
+  const url = await addressOf(bench.editor.text, "&embed");
+  const sandbox = "allow-scripts allow-same-origin allow-popups allow-popups-to-escape-sandbox";
+  if (url) await copy(`<iframe src="${url}" title="SKG" width="100%" height="420" loading="lazy" sandbox="${sandbox}"></iframe>`);
+}
+
+async function addressOf(program: string, more: string): Promise<string | undefined> {
   const url = new URL(location.href);
   try {
-    url.hash = `z=${await pack(program)}&run${isEmbedded ? "&embed" : ""}`;
+    url.hash = `z=${await pack(program)}&run${more}`;
   } catch {
     say("badLarge", t("program"), MOST / 1024);
-    return;
+    return undefined;
   }
-  await copy(isEmbedded ? `<iframe src="${url.href}" title="SKG" width="800" height="500"></iframe>` : url.href);
+  return url.href;
 }
 
 async function copy(text: string): Promise<void> {

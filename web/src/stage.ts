@@ -41,8 +41,8 @@ export class Stage {
   }
 
   /** The machine has told its program: it is that of the run that began last. */
-  tell(program: string): void {
-    if (this.recording.isFresh) this.recording.made = { ...this.recording.made, program };
+  tell(made: Maker): void {
+    if (this.recording.isFresh) this.recording.made = made;
     this.recording.isFresh = false;
   }
 

@@ -65,6 +65,11 @@ export class Workbench {
     return this.#nameOf(this.editor.text).name;
   }
 
+  /** The name of the part that is seen, letter for letter. */
+  get part(): string | undefined {
+    return this.#around.partOf(this.editor.text);
+  }
+
   #nameOf(program: string): { name: string; isPart: boolean } {
     return nameFor(program, this.#around.partOf(program), this.origin);
   }
@@ -97,7 +102,7 @@ export class Workbench {
   memory(program: string, before: string): void {
     // (in the middle of a long LOAD it has a part of it alone)
     if (this.#sent !== undefined && !hasLinesOf(program, this.#sent) && this.session.isRunning) return;
-    this.stage.tell(program);
+    this.stage.tell({ ...this.#nameOf(program), program });
     const isSent = this.#sent === this.editor.text;
     if (isSent && this.linked === this.#sent) this.linked = program;
     if (isSent ? hasLinesOf(program, this.editor.text) : before === this.editor.text) this.editor.text = program;
@@ -121,6 +126,7 @@ export class Workbench {
     const parameters = parametersOf(this.editor.text).map((each) => ({ ...each, label: labelOf(each.label) }));
     showParameters(get("parameters"), parameters, (at, value) => this.#set(at, value));
     get("no-program").hidden = this.editor.text !== "";
+    document.body.classList.toggle("talks", /^\s*\d+\s*(PRINT|INPUT)/im.test(this.editor.text));
     this.stage.pictures.isStale = this.isStale;
     this.stage.pictures.say();
   }

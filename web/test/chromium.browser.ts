@@ -420,10 +420,20 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
       await page.waitForFunction(async (wanted) => (await navigator.clipboard.readText()).startsWith(wanted), start);
       return page.evaluate(() => navigator.clipboard.readText());
     };
-    const link = await copied("http");
+    // (a part has an address with a card, which leads to it)
+    const card = await copied("http");
+    assert.match(card, /\/part-ratchet\.html$/);
     await page.locator("details.menu summary").nth(1).click();
     await page.click("#copy-embed");
-    assert.match(await copied("<iframe"), /^<iframe src="http.*&run&embed" title="SKG"/);
+    const frame = await copied("<iframe");
+    assert.match(
+      frame,
+      /^<iframe src="http.*&run&embed" title="SKG" width="100%" height="420" loading="lazy" sandbox="allow-scripts /,
+    );
+    const link = (/src="(.*?)&embed"/.exec(frame)?.[1] ?? "").replaceAll("&amp;", "&");
+    await page.goto(card);
+    await page.waitForSelector("body[data-ready]");
+    await hasLines(page, program);
     await context.close();
 
     const hash = link.slice(link.indexOf("#"));
@@ -1025,10 +1035,15 @@ describe("the page in chromium", { skip: existsSync(CHROMIUM) ? false : "chromiu
     await page.hover("#over", at(50));
     const said50 = (await page.textContent("#place")) ?? "";
     assert.ok(Math.abs(Number(/distance ([\d.]+)/.exec(said50)?.[1]) - 50) < 0.5, said50);
-    await page.click("#next");
+    await page.click("#play"); // (the block follows the wire)
+    await says(page, "#play", "Play");
+    await page.focus("#list");
+    await page.keyboard.press("Home");
     await active(page, 1);
     await page.click("#next");
     await active(page, 2);
+    await page.click("#before");
+    await active(page, 1);
     await page.click("#manual");
     await page.frameLocator("#manual-frame").locator(".try a").first().click();
     await says(page, "#made", "A PLATE WITH A HOLE");

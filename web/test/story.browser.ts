@@ -1,0 +1,139 @@
+/** What this is, cards for links, the form for an article, in Debian's chromium. */
+import assert from "node:assert/strict";
+import { existsSync, readFileSync } from "node:fs";
+import { after, before, describe, test } from "node:test";
+import { pack } from "../src/link.ts";
+import { AXE, begin, CHROMIUM, end, says, served, shot, visit } from "./chromium.ts";
+import { serve, WHOLE } from "./served.ts";
+
+interface Axe {
+  run(options: object): Promise<{ violations: { id: string; nodes: { html: string; failureSummary: string }[] }[] }>;
+}
+
+describe("the story", { skip: existsSync(CHROMIUM) ? false : "chromium is not installed", timeout: WHOLE }, () => {
+  before(begin);
+  after(end);
+
+  test("what this is: a click away, on one screen, in both languages; a page of the book runs beside it", async () => {
+    for (const [locale, file, heading, run] of [
+      ["en-US", "about.html", "What is this?", "Run this page"],
+      ["zh-CN", "about.zh.html", "这是什么？", "运行这一页"],
+    ] as const) {
+      for (const colorScheme of ["light", "dark"] as const) {
+        const { page, context, said } = await visit({ locale, colorScheme, bypassCSP: true });
+        await firstTape(page);
+        await page.click("#about");
+        const about = page.frameLocator("#manual-frame");
+        await about.locator("h1", { hasText: heading }).waitFor();
+        assert.equal(await page.getAttribute("#manual-alone", "href"), file);
+        await about.locator("a", { hasText: run }).click();
+        await says(page, "#lines .cm-line:nth-child(1)", /SKG book 7/);
+        await page.waitForFunction(() => /^11 /.test(document.getElementById("sum")?.textContent ?? ""));
+        assert.ok(await page.isVisible("#manual-frame"));
+        await shot(page, `about-${locale}-${colorScheme}`);
+        // alone: all of it on a screen
+        await page.setViewportSize({ width: 1440, height: 900 });
+        await page.goto(served.url + file);
+        const text = (await page.textContent("main")) ?? "";
+        for (const fact of ["孙宝成", "1976", "1983", "6,300", "8080", "8,192"]) assert.ok(text.includes(fact), fact);
+        assert.ok(await page.evaluate(() => document.documentElement.scrollHeight <= innerHeight), "no more than a screen");
+        const bytes = await page.locator("ul.bytes b").allTextContents();
+        assert.equal(
+          bytes.reduce((sum, each) => sum + Number(each), 0),
+          8192,
+        );
+        await page.evaluate(AXE);
+        const found = await page.evaluate(async () => {
+          const { violations } = await (window as unknown as { axe: Axe }).axe.run({
+            runOnly: ["wcag2a", "wcag2aa", "wcag21aa"],
+          });
+          return violations.map(({ id, nodes }) => `${id}: ${nodes[0]?.html} ${nodes[0]?.failureSummary}`);
+        });
+        assert.deepEqual(found, []);
+        assert.deepEqual(said, []);
+        await context.close();
+      }
+    }
+  });
+
+  test("a card for each part: title and picture; who follows it comes to the part", async () => {
+    const { page, context } = await visit();
+    await page.goto(`${served.url}part-die.html`);
+    await page.waitForURL(/#part=die&run$/);
+    await page.waitForSelector("body[data-ready]");
+    // (looked at by the clock: a page that was led here draws no frame before somebody looks)
+    await page.waitForFunction(() => document.getElementById("made")?.textContent === "Die: the wire inside", undefined, {
+      polling: 100,
+    });
+    const html = readFileSync("web/dist/part-die.html", "utf8");
+    assert.match(html, /<meta property="og:title" content="Die: the wire inside: SKG">/);
+    assert.match(html, /<meta property="og:image" content="part-die.png">/);
+    assert.match(readFileSync("web/dist/index.html", "utf8"), /<meta property="og:image" content="part-wrench.png">/);
+    // the picture is one, and something is drawn in it
+    const [width, height, shades] = await page.evaluate(async () => {
+      const picture = new Image();
+      picture.src = "part-die.png";
+      await picture.decode();
+      const canvas = new OffscreenCanvas(picture.width, picture.height);
+      const context = canvas.getContext("2d") as OffscreenCanvasRenderingContext2D;
+      context.drawImage(picture, 0, 0);
+      const { data } = context.getImageData(0, 0, picture.width, picture.height);
+      return [picture.width, picture.height, new Set(new Uint32Array(data.buffer)).size];
+    });
+    assert.deepEqual([width, height], [800, 420]);
+    assert.ok((shades ?? 0) > 20, `${shades}`);
+    await context.close();
+  });
+
+  test("in another page's frame: text and drawing side by side, RUN, no keys of a teletype, in a sandbox", async () => {
+    const article = await serve();
+    const { page, context, said } = await visit({ permissions: ["clipboard-read", "clipboard-write"] });
+    try {
+      await page.evaluate((code) => (location.hash = `#z=${code}&run`), await pack("10 REM MINE\n20 CUT O,(5,0)\n30 END\n"));
+      await says(page, "#made", "MINE");
+      await page.locator("details.menu summary").nth(1).click();
+      await page.click("#copy-embed");
+      await page.waitForFunction(async () => (await navigator.clipboard.readText()).startsWith("<iframe"));
+      const code = await page.evaluate(() => navigator.clipboard.readText());
+      article.changed.set(
+        "article.html",
+        `<!doctype html><link rel="icon" href="data:,"><title>An article</title><p>Text.</p>${code}`,
+      );
+      await page.setViewportSize({ width: 720, height: 600 });
+      await page.goto(`${article.url}article.html`);
+      const frame = page.frameLocator("iframe");
+      await frame.locator("#sum", { hasText: "1 blocks · 5.0 mm" }).waitFor();
+      const box = async (selector: string) =>
+        (await frame.locator(selector).boundingBox()) ?? { x: 0, y: 0, width: 0, height: 0 };
+      const [text, drawing] = [await box("#lines"), await box("#canvases")];
+      assert.ok(text.width > 200 && drawing.width > 300 && text.height > 250, JSON.stringify([text, drawing]));
+      assert.ok(text.x + text.width <= drawing.x, "side by side");
+      assert.equal(await frame.locator("#terminal").isVisible(), false);
+      assert.equal(await frame.locator("[data-key='13']").isVisible(), false);
+      // changed and run where it stands
+      await frame.locator(".cm-line").nth(1).click();
+      await page.keyboard.press("End");
+      await page.keyboard.type(",(5,5)");
+      await frame.locator("#run").click();
+      await frame.locator("#sum", { hasText: "2 blocks · 10.0 mm" }).waitFor();
+      // a program that prints shows its paper
+      await frame.locator(".cm-line").nth(2).click();
+      await page.keyboard.press("Home");
+      await page.keyboard.press("Shift+End");
+      await page.keyboard.type('30 PRINT "HELLO"');
+      await frame.locator("#run", { hasText: "RUN" }).waitFor();
+      await frame.locator("#run").click();
+      await frame.locator("#terminal").waitFor();
+      await shot(page, "article");
+      assert.deepEqual(said, []);
+    } finally {
+      await article.stop();
+      await context.close();
+    }
+  });
+});
+
+/** The wrench of a first visit, in whatever language. */
+const firstTape = async (page: import("playwright-core").Page): Promise<void> => {
+  await page.waitForFunction(() => /^29 .* mm$/.test(document.getElementById("sum")?.textContent ?? ""));
+};
