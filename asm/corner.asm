@@ -1,7 +1,7 @@
 ; corner.asm - where the wire goes from one element to the next: corners, fillets, the entry; which curves are the same
 ; Offers: JOINED CPYEL CPYPL FILLET TON PASSED OFFCHK CORND FIRST PATC SAMEF SAMEC SAMEL
 ; Uses:   [post] calc consts float geom round route start value
-; Room:   477 bytes
+; Room:   482 bytes
 
 ; (FILLET comes here when it turns by nothing)
 FILL9:  DB      QDOT,QE6N,QEND  ; -             straight on, or straight back
@@ -46,8 +46,9 @@ CPYPL:  MVI     A,PLCSIZ
 FILLET: DB      CALC,QPTOK,QNORMS,QJN ; -
         DB      FILL9-$
         DB      LCR,LNR,QE6D    ; -
-        DB      LFI,QCRS,QSIG,QNEG ; -fi
-        DB      QDUP,SO1,SO2    ; -
+        DB      LFI,QABS,QCRS,QSIG ; fi         as the corner turns
+        DB      LFI,QOVR,QSUB,QE6N ; fi         a negative one is wanted clockwise
+        DB      QNEG,QDUP,SO1,SO2 ; -
         DB      QCA,LO1,QSENS,QE6N ; -
         DB      QNA,LO1,QSENS,QE6N ; -
         DB      QEND

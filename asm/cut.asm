@@ -1,7 +1,7 @@
 ; cut.asm - how a CUT is cut: items that arrive become elements of the route
-; Offers: SCUT ITEMT ITEMR ADDEL CORDON POSIT ITPNT PNTDON GETR SCALED XSCL
+; Offers: SCUT ITEMT ITEMR ADDEL CORDON ITPNT PNTDON GETR SCALED XSCL
 ; Uses:   calc consts corner fit float geom parser round route start value
-; Room:   362 bytes
+; Room:   351 bytes
 ;
 ; A route is a chain of oriented elements (lines, circles).  The wire travels the
 ; current element C, which it entered at A.  An item that arrives becomes the next
@@ -133,7 +133,6 @@ ADDEL1: CALL    ITDONE
 ; Clobbers all
 CORDON: LXI     H,0
         SHLD    RFILW           ; and RTURN
-        SHLD    RTURN           ; and RNAMED
         DB      CALC,QMU,STL,QRET ; -
 
 ; ITCHK - in check mode: refuses a fillet that the line itself shows to have no place: after
@@ -159,20 +158,12 @@ ITCHK:  LXI     H,VKIND
 
 ; ITFIL - a fillet radius
 ; In:  a0   Out: FI; ERR 05, ERR 06   Clobbers all
-ITFIL:  CALL    POSIT
+ITFIL:  DB      CALC,LA0,QDUP,QDIV,QEND ; 1     (the quotient refuses 0)
         CALL    NOFIL           ; two in a row
         CALL    NEEDEL          ; before or at the entry (leaves A not 0)
         STA     RFILW
-        DB      CALC,LA0,SFI    ; -
+        DB      CALC,LA0,QMUL,SFI ; -
 ITPN4:  DB      QRET            ; (for ITPNT too)
-
-; POSIT - demands that the value is a positive number
-; In:  a0   Out: A = 0; ERR 05   Clobbers HL
-POSIT:  LXI     H,MA
-        CALL    FSGN
-        DCR     A
-        RZ
-        DB      ERROR,ERANGE
 
 ; ITPNT - a point
 ; In:  a0 a1, NR   Clobbers all
@@ -234,7 +225,6 @@ SCALED: DB      CALC,LA2,QSCL,SA2 ; -
         DB      QJC             ; -             (points too)
         DB      SCAL1-$
         DB      QRET
-SCAL1:  DB      LA0,QSCL,LA1,QSCL,QSA ; -
-        DB      QRET
+SCAL1:  DB      LA0,QSCL,LA1,QSCL,QSA+QRET ; -
 ; QSCL: a number in the scale of the tape
 XSCL:   DB      LSC,QMUL+QRET   ; x

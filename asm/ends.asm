@@ -1,7 +1,7 @@
 ; ends.asm - how a route begins and ends: closed, open, dropped; FROM and BACK
 ; Offers: RUNINI RTNEW WIPE ENDRT SFROM ROUTER SBACK GOBACK
 ; Uses:   [post] calc consts corner cut fit geom parser round route start
-; Room:   228 bytes
+; Room:   224 bytes
 
 ; RUNINI - the state in which a run starts: wire at O, scale 1, no route
 ; Clobbers all
@@ -94,10 +94,9 @@ ENDRT:  CALL    FITEND
 SFROM:  CALL    EVPNT
         DB      CHKEND
         CALL    SCALED
-        DB      CALC,LA0,QRND,LA1,QRND ; x' y'  ERR 10, before anything is done
-        DB      QVEC,QEND       ; x' y' x y     kept while the route ends
+        DB      CALC,QVEC       ; x y           kept while the route ends
+        DB      LA0,QRND,LA1,QRND,QEND ; x y x' y'  ERR 10, before anything is done
         CALL    ENDRT
-        DB      CALC,SHY,SHX,QEND ; x' y'
         JMP     REPOS
 
 ; ROUTER - after an error: D when a route was open, which is forgotten   Clobbers all

@@ -1,8 +1,8 @@
 ; geom.asm - the operations of language.md, section 2.1, as calculator code
-; Offers: BINOPK BINOP BINKND RSTAR XUNIT XSA SXS BELT XDOT XCRS XVEC XDIF XCENT XWAY XSS XHYP XFAR
-;         XALNG XROTV XTURN XSB XLEG XE6D
+; Offers: BINOPK BINOP BINKND RSTAR XUNIT XSA XTOA SXS BELT XDOT XCRS XVEC XDIF XCENT XWAY XSS XHYP
+;         XFAR XALNG XROTV XTURN XSB XLEG XE6D
 ; Uses:   calc consts float start value
-; Room:   515 bytes
+; Room:   511 bytes
 ;
 ; The left operand stands in a0 a1 a2, the right one in b0 b1 b2, unused ones zero:
 ; a point is a circle of radius 0, a number a point on the X axis, a rotation about O one
@@ -173,7 +173,7 @@ XUNIT1: DB      QDUP,ST3,QABS           ; x y |d|
         DB      QNEAR,QSUB,QE6N         ; x y
 ; (for GDIV too)
 XUNIT2: DB      LT3,QDIV,SA1            ; x
-        DB      LT3,QDIV,SA0,QRET       ; -
+        DB      LT3,QDIV,QTOA+QRET      ; -
 
 ; P#A, C#A, P#(A:P), C#(A:P)
 GROTP:  DB      LB1,LA0,QSUB            ; dx
@@ -181,7 +181,10 @@ GROTP:  DB      LB1,LA0,QSUB            ; dx
         DB      QROTV                   ; -
         DB      QDIF                    ; dx dy         back from there
 ; QSA: a0 a1 = a vector
-XSA:    DB      SA1,SA0,QRET            ; -
+XSA:    DB      SA1                     ; x
+; (fall into XTOA)
+; QTOA: a0 = a number
+XTOA:   DB      SA0,QRET                ; -
 ; P*D, D*D; D*P: 0 - (-D)*P
 GMULT:  DB      QXCH                    ; -
 GNMUL:  DB      LA0,QNEG,Q0,SA0         ; -D
@@ -233,9 +236,9 @@ GPNT:   DB      LB1,SA2,LB0,SA1,QRET    ; -
 
 ; S,P and P,S: how far P lies to the right of S; P*P (b2 is 0)
 GSPDIS: DB      QXCH                    ; -
-GPSDIS: DB      QDOT,LB2,QSUB,SA0,QRET  ; -
+GPSDIS: DB      QDOT,LB2,QSUB,QTOA+QRET ; -
 ; P,P: distance
-GDIST:  DB      QDIF,QHYP,SA0,QRET      ; -
+GDIST:  DB      QDIF,QHYP,QTOA+QRET     ; -
 ; S,S: angle from the first direction to the second, with d = cosine, s = sine:
 ; 2*atg(s/(d+-1)), + for d from 0 up, is it or 180 off
 GANGLE: DB      QCRS,QDOT               ; s d
@@ -243,7 +246,7 @@ GANGLE: DB      QCRS,QDOT               ; s d
         DB      QDIV,QATG,QDBL          ; angle
         DB      Q90,Q90,QDOT,QSIG,QSUB  ; angle 90-+90
         DB      QCRS,QSIG               ; angle 0 or +-180
-        DB      QADD,SA0,QRET           ; -
+        DB      QADD,QTOA+QRET          ; -
 
 ; P/P: a circle through a point; P:D, C:D
 GTHRU:  DB      QDIF,QHYP,QJMP          ; r

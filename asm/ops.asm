@@ -1,7 +1,7 @@
 ; ops.asm - the operations of the calculator: their numbers, and their routines
 ; Offers: names for all
 ; Uses:   calc cut fit float geom parser round route value
-; Room:   126 bytes
+; Room:   128 bytes
 ;
 ; Behind each number: what is on the float stack before and after, the top last; other effects.
 ; The numbers from OPPOP on pop one float; from OPBYTE on the routine is byte-code itself.
@@ -11,7 +11,7 @@
 ; one byte. Up to QTOK, but for jumps and QEND, that is possible.
 
 ;! OPTAB/100H == (OPEND-1)/100H -- CALC makes the low byte alone of a place in the table
-;! OPEND-OPTAB == 2*(QSEEN+1) -- every number has its routine
+;! OPEND-OPTAB == 2*(QDIF+1) -- every number has its routine
 ;! QTOK+QRET == 0FFH -- the codes behind the constants are all used
 ;! (OPTAB & 0FFH) > 0 -- QRET leaves A not 0
 
@@ -48,9 +48,9 @@ QDRP    EQU 1CH         ; x ->
 QSIG    EQU 1DH         ; x y -> x, or -x when y is negative
 QE6N    EQU 1EH         ; x ->    ERR 06 when negative
 OPBYTE  EQU 1FH         ; (from here on: byte-code)
-QCRS    EQU 1FH         ; -> a0*b1-a1*b0
-QDOT    EQU 20H         ; -> a0*b0+a1*b1
-QDIF    EQU 21H         ; -> b0-a0 b1-a1
+QSA     EQU 1FH         ; x y ->  a0 a1 = x y
+QSB     EQU 20H         ; x y ->  b0 b1 = x y
+QTOA    EQU 21H         ; x ->    a0 = x
 QVEC    EQU 22H         ; ->      a0 a1
 QSS     EQU 23H         ; x y -> x*x+y*y
 QHYP    EQU 24H         ; x y -> square root of x*x+y*y
@@ -77,9 +77,10 @@ QCHDA   EQU 38H         ; x y -> dy dx  from a0 a1 to x y, times t0
 QTRAV   EQU 39H         ; x1 y1 x2 y2 -> s  travel on C: its sine times the radii; a, b = both places from the centre
 QPTOK   EQU 3AH         ; ->      K = b0 b1 = P
 QSCL    EQU 3BH         ; x -> x in the scale of the tape
-QSA     EQU 3CH         ; x y ->  a0 a1 = x y
-QSB     EQU 3DH         ; x y ->  b0 b1 = x y
+QCRS    EQU 3CH         ; -> a0*b1-a1*b0
+QDOT    EQU 3DH         ; -> a0*b0+a1*b1
 QSEEN   EQU 3EH         ; x1 y1 x2 y2 ->  a, b = these places as seen from the centre of C
+QDIF    EQU 3FH         ; -> b0-a0 b1-a1
 QRET    EQU 0D5H        ; ends the byte-code and returns from the routine, A not 0, Z clear, CY set
 
 OPTAB:  DW      ODRP            ; (QRET alone: nothing, then back)
@@ -87,9 +88,9 @@ OPTAB:  DW      ODRP            ; (QRET alone: nothing, then back)
         DW      FSQR,FSIN,FCOS,FTG,FATG,FABS,FINT
         DW      XXCH,XCA,XNA,XJC,XONEL,XFAR
         DW      FADD,FSUB,FMUL,FDIV,OJN,OJZ,ODRP,XSIG,XE6N
-        DW      XCRS,XDOT,XDIF,XVEC,XSS,XHYP,XWAY
+        DW      XSA,XSB,XTOA,XVEC,XSS,XHYP,XWAY
         DW      XALNG,XROTV,XUNIT,XE6D,XTOK
         DW      XMAX,XTURN,XCHRD,XBIAR,XMIRR,XLEG,XCENT
         DW      XRND,XVK,XNORM,XNORMS,XSENS,XXING,XCHDA,XTRAV
-        DW      XPTOK,XSCL,XSA,XSB,XSEEN
+        DW      XPTOK,XSCL,XCRS,XDOT,XSEEN,XDIF
 OPEND:                          ; (its end)

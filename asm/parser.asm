@@ -2,7 +2,7 @@
 ; Offers: EVAL OPFLT NEGVAL FIND ASSIGN SETREF RBNEW RBSET GETREF ERUNS PRVAL MORE EVINT EVPNT EVNUM
 ;         EVKIND ERKIND NOTURN FINT CMPNE
 ; Uses:   calc consts float geom io lexer start value
-; Room:   590 bytes
+; Room:   588 bytes
 ;
 ; Grammar (tokens, equ.asm):
 ;   expression = operand { operator operand }      priorities of language.md, section 2
@@ -109,7 +109,7 @@ OPFN:   PUSH    PSW
         SUI     TSQR-QSQRT      ; the number of its operation
         LXI     B,OPFN1
         JMP     CALOP
-OPFN1:  DB      SA0,QRET        ; -
+OPFN1:  DB      QTOA+QRET       ; -
 
 ; OPK - K1 K2 K3: canonical number A (0...2) of the value
 ; In:  A, a0 a1 a2, VKIND   Out: as EVAL; ERR 04   Clobbers all
@@ -166,7 +166,7 @@ NEGVAL: CALL    CHKRET
         CALL    NOTURN
         CPI     KCIR
         RZ
-        DB      CALC,LA0,QNEG,LA1,QNEG,QSA,QRET ; -
+        DB      CALC,LA0,QNEG,LA1,QNEG,QSA+QRET ; -
 
 ; NAME - a name with its subscript worked out
 ; In:  A = its first token, taken   Out: DE = name   Clobbers all

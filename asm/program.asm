@@ -1,7 +1,7 @@
 ; program.asm - the lines of the program: how they are kept, their numbers, LIST
 ; Offers: STORE FINDLN PLINE LOADDE SUMREC VARSUM LINENO OPTLN LNEND SLIST
-; Uses:   [punch] float lexer parser start value
-; Room:   286 bytes
+; Uses:   [punch] float lexer monitor parser start value
+; Room:   290 bytes
 ;
 ; A program line: length of the record, line number (low byte first), tokens, 00, a byte
 ; that makes the sum of all 0 (checked at reset).  A zero length ends the program; PEND->
@@ -40,6 +40,8 @@ STOR1:  MOV     M,A
         CALL    FINDLN          ; HL-> its place
         JZ      STOR2           ; A = length of the line that it replaces
         XRA     A
+        CMP     C
+        JZ      READY           ; nothing to take out: nothing is done
 STOR2:  PUSH    H
         MOV     D,H
         MOV     E,L

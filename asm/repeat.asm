@@ -1,7 +1,7 @@
 ; repeat.asm - routes that are cut again: SYM, REP, RECUT; and SCALE
 ; Offers: SREP SSYM SRECUT SSCALE
 ; Uses:   calc consts cut ends fit float geom io parser route start value
-; Room:   333 bytes
+; Room:   332 bytes
 ;
 ; The route buffer lies between the program and the variables, from PEND+1 to RBEND:
 ; 16 bytes an item, its kind (bit 7: a turn to the right leads to it) and its value in
@@ -55,9 +55,9 @@ OPENRT: SHLD    ROP
         DB      CALC,LA0,SRA,Q1,SRT,LA1,SRX ; -
         DB      LA2,QSCL,SRY,QEND ; -
         LDA     RITEMS
-        ORA     A
+OPENR1: ORA     A               ; (SRECUT comes in here: all items from PEND on)
         JZ      ERGEO
-OPENR1: LDA     RBFULL          ; (SRECUT comes in here: all items from PEND on)
+        LDA     RBFULL
         ORA     A
         JNZ     ERMEM
         LHLD    RBEND
@@ -175,8 +175,6 @@ STEPB:  LXI     D,-16
 ; SRECUT - statement: RECUT
 SRECUT: DB      CHKEND
         LDA     CLOSED
-        ORA     A
-        JZ      ERGEO
         CALL    OPENR1
 SREC1:  MOV     A,M
         CALL    FETCH
@@ -188,7 +186,7 @@ SREC1:  MOV     A,M
 ; SSCALE - statement: SCALE number
 SSCALE: CALL    EVNUM
         DB      CHKEND
-        CALL    POSIT
+        DB      CALC,LA0,QDUP,QSQRT,QDIV,QEND ; .     (the root refuses what is negative, the quotient 0)
         LDA     RITEMS
         ORA     A
         JNZ     ERGEO

@@ -21,7 +21,7 @@ FITSM   EQU CWORK+13    ; not 0 = the last element is an arc of that curve, up t
 RCORN   EQU CWORK+33    ; where the first element was left: two floats
 RKEPT   EQU MREG+335    ; behind the registers: element kept while a fillet goes first
 
-;! RTURN == RFILW+1 and RNAMED == RTURN+1 -- CORDON and FILLET clear two cells at once
+;! RTURN == RFILW+1 and RNAMED == RTURN+1 -- CORDON and FILLET write two cells at once
 ;! RFSTP == RLASTP+1 -- SAMEL compares two cells that it takes at once
 ;! RBFULL == CLOSED+1 and FITSM == FITN+1 -- RBNEW and FITEND clear two cells at once
 ;! MKX+PLCSIZ <= MREG+320 and RKEPT+ELSIZE <= LINBUF -- copies stay in their rooms

@@ -1,7 +1,7 @@
 ; tape.asm - moves in whole micrometres, as 3B blocks (tape-3b.md)
 ; Offers: RUNCEL RUNLEN REPOS STOP PUNDS ENTER HOME MOVE PUTBLK ARCZ
 ; Uses:   [more] [punch] calc consts float geom io lexer round start
-; Room:   276 bytes
+; Room:   285 bytes
 ;
 ; The wire stands at W, the move goes to V; everything is made from these rounded
 ; values; ARC (arc_3b.asm, arc_nodrift.asm) does the arcs.
@@ -18,15 +18,19 @@ RUNLEN  EQU BLKNO+2-RUNCEL ; H, W, RMOVED, BLKNO
 ;! MC2+20 <= RUNCEL and BLKNO+2 <= MFIRST and RUNCEL+4 == MNEXT -- RUNINI clears no other cells
 
 ; REPOS - FROM: the first one is silent, another one a move between two stops
-; In:  H, and on the float stack H in whole um   Out: W = H   Clobbers all, the float stack too
+; In:  on the float stack the new start hole, and the same in whole um
+; Out: H, W = H; ERR 10 when the move is too long, before anything is done   Clobbers all
 REPOS:  LXI     H,RMOVED
         MOV     A,M
         ORA     A
         JNZ     REPOS1
         INR     M
-        DB      CALC,SWY,SWX    ; -
+        DB      CALC,SWY,SWX,SHY,SHX ; -
 REPOS2: DB      QRET            ; (for PUTBLK too)
-REPOS1: CALL    STOP
+REPOS1: DB      CALC,LWY,QSUB,Q1000,QDIV,QRND,QDRP ; x y x'
+        DB      LWX,QSUB,Q1000,QDIV,QRND,QDRP ; x y
+        DB      SHY,SHX,QEND    ; -
+        CALL    STOP
         CALL    HOME
 ; (fall into STOP)
 
@@ -125,21 +129,19 @@ PUTB4:  DB      QEND
 ; Out: C = its digit   Clobbers A, HL
 QUAD:   LXI     H,MA
         CALL    FSGN
-        MOV     C,A
-        ADD     A
-        ADD     C
-        MOV     C,A             ; 3 * sign of x
+        MOV     C,A             ; C = sign of x
         MVI     L,(MA+5)&255    ; (a0 begins a page)
         CALL    FSGN
-        ADD     C
-        ADI     4
-        LXI     H,QUADS
-        CALL    ADDA
-        MOV     C,M
+        JNZ     QUAD1
+        MOV     A,C             ; on the X axis that tells the half
+QUAD1:  CMP     C               ; A = 1 for quadrants 1 and 2, -1 for 3 and 4
+        MOV     C,A
+        MVI     A,CZERO+3
+        JNZ     QUAD2
+        DCR     A               ; 1 and 3: the sign of x is the same
+QUAD2:  SUB     C
+        MOV     C,A
         RET
-
-; by the signs of x and y: -- -0 -+ 0- 00 0+ +- +0 ++
-QUADS:  DB      "332412411"
 
 ; ARCZ - what an arc's block says besides J, for ARC
 ; In:  a, b = start and end as seen from the centre, mirrored when it runs clockwise; C2
@@ -170,4 +172,4 @@ SETZG:  MOV     H,C
         STA     TGAX
         RC
         DB      CALC,LA1,LA0,QNEG,QSA ; -
-        DB      LB1,LB0,QNEG,QSB,QRET ; -
+        DB      LB1,LB0,QNEG,QSB+QRET ; -

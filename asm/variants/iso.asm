@@ -2,7 +2,7 @@
 ; Offers: RFEED RCUTZ RTRAVZ RSETZ RGNUM RUNCEL RUNLEN HOME UP DOWN REPOS ENTER MOVE GXY PUTNUM STOP
 ;         PUNDS BLOCK
 ; Uses:   [post] calc consts decimal float geom io lexer parser round start value
-; Room:   323 bytes
+; Room:   329 bytes
 ;
 ; The tool stands at W in the plane and at the height WZ, the move goes to V (arcs: arc_iso.asm) or to
 ; the height VZ; all in whole um.  At the beginning of a tape W and WZ are a number that no place is, so
@@ -76,8 +76,11 @@ TOHOLE: DB      CALC,LHX,LHY,QTOK ; -
 THERE:  DB      QRET            ; (for DOWN and MOVEG: nothing to do)
 
 ; REPOS - FROM: at the travel height to the start hole
+; In:  on the float stack the new start hole, and the same in whole um   Out: H, W = H   Clobbers all
+REPOS:  DB      CALC,QDRP,QDRP,SHY,SHX,QEND ; -
+; OVER - the same where the start hole is known
 ; In:  H, W   Clobbers all
-REPOS:  CALL    UP
+OVER:   CALL    UP
         CALL    TOHOLE
         XRA     A
         JMP     MOVEG
@@ -85,7 +88,7 @@ REPOS:  CALL    UP
 ; ENTER - the tool goes to the start hole, down, and to the route's beginning
 ; In:  H, K, W   Out: G = A = K, W = V; ERR 03 without a feed   Clobbers all
 ENTER:  DB      CALC,LKX,SGX,LKY,SGY,QEND ; -
-        CALL    REPOS
+        CALL    OVER
         CALL    DOWN
         DB      CALC,LGX,LGY,QTOK,QEND ; -
 ; (fall into MOVE)

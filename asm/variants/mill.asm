@@ -1,6 +1,6 @@
 ; mill.asm - the statements of milling: F, Z, M, G, HOLE (milling.md)
 ; Offers: SFREES SFEED SHGHT SPREP SMISC SHOLE
-; Uses:   [post] calc consts corner cut float monitor parser round route start value
+; Uses:   [post] calc consts corner cut float geom monitor parser round route start value
 ; Room:   286 bytes
 
 LASTW   EQU 99          ; greatest number of M, G and T
@@ -41,7 +41,7 @@ FARG:   CALL    EVNUM
 ; Out: in whole um above 5 mm on the float stack (not in check mode); ERR 04, ERR 10   Clobbers all
 ZARG:   CALL    EVNUM
         RNZ
-        DB      CALC,LA0,QRND,Q10,QHALF,QMUL,QRND,QSUB,QRET ; z
+        DB      CALC,LA0,QRND,Q10,QHALF,QMUL,QRND,QSUB+QRET ; z
 
 ; SHGHT - statement: Z cutting height; Z cutting height, travel height
 SHGHT:  LXI     D,RTRAVZ
@@ -151,8 +151,7 @@ HOLE:   CALL    NOROUT
         ORA     A
         JZ      ERUNS
         CALL    SCALED
-        DB      CALC,LA0,QRND,LA1,QRND ; x y    ERR 10, before anything is done
-        DB      LA0,SHX,LA1,SHY,QEND ; x y
+        DB      CALC,QVEC,LA0,QRND,LA1,QRND,QEND ; x y x' y'  ERR 10, before anything is done
         CALL    REPOS
         CALL    DOWN
         JMP     UP

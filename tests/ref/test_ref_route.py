@@ -184,7 +184,8 @@ def test_a_corner_that_hardly_turns_leaves_its_fillet_out() -> None:
 @pytest.mark.parametrize(
     ("statements", "code"),
     [
-        (["CUT X,-2,Y:10"], 5),
+        (["CUT X,0,Y:10"], 5),
+        (["CUT X,-2,Y:10"], 6),
         (["CUT 2"], 6),
         (["CUT O,2"], 6),
         (["CUT X,2", "CUT (5,0)"], 6),

@@ -77,7 +77,8 @@ BAD_LINES = {
     "fillet before the first element": ("CUT SQR 4,X,Y", 6),
     "two fillets": ("CUT X,2,SQR 4,Y", 6),
     "fillet of no size anywhere": ("CUT 1-1,X", 5),
-    "two fillets, one of no size": ("CUT X,2,1-2,Y", 5),
+    "two fillets, one of no size": ("CUT X,2,1-1,Y", 5),
+    "a fillet that turns right where the corner turns left": ("CUT X,-2,Y:10", 6),
 }
 
 

@@ -67,6 +67,15 @@ def test_a_refused_from_moves_nothing(board: Board) -> None:
     assert board.tape == b"B0B1000B1000GYL2\r\nB5000B0B5000GXL1\r\nDD\r\n"
 
 
+def test_a_move_that_does_not_fit_has_no_stop(board: Board) -> None:
+    """Nor does it move wire or start hole: the next route is entered from there."""
+    board.type("FROM (-60000,0)")
+    assert fault(board.type("FROM (60000,0)")) == (10, None)
+    for line in ("CUT (-60000,1),(-60000,2)", "BACK"):
+        board.type(line)
+    assert board.tape == b"B0B1000B1000GYL2\r\nB0B1000B1000GYL2\r\nB0B1000B1000GYL4\r\nB0B1000B1000GYL4\r\n"
+
+
 def test_a_block_that_does_not_fit_moves_nothing(board: Board) -> None:
     """The wire is where it was before the arc whose count is too long."""
     lines(board, "C=(40000,0):40000", "CUT (0,0),C,(40000,40000)")

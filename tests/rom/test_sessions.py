@@ -57,6 +57,10 @@ def test_sessions_hold_what_is_looked_for() -> None:
         ["A=1", "FROM (10,10)", "RUN 55", "PRINT A", "FROM (20,0)"],
         ["CUT O,(10,0)", "RUN 55", "CUT O,(0,10)", "END"],
         ["10 A=1", "CUT O,(10,0)", "10", "CUT (10,10)", "BACK"],
+        ["CUT O,(10,0)", "10", "CUT (10,10)", "BACK"],
+        # FROM whose move does not fit, from a start hole and from a route's end.
+        ["FROM (-60000,0)", "FROM (60000,0)", "FROM (30000,5)", "CUT (0,5),(1,1)", "END"],
+        ["CUT O,(-50000,0)", "FROM (50000,0)", "FROM (49999.999,0)", "CUT X,Y", "BACK"],
         # A program gone on with behind an error.
         ["10 FROM O", "20 CUT O,(10,0),(10,10)", "30 CUT Q", "40 BACK", "RUN", "30 REM", "GOTO 40", "GOTO 20"],
         ["RUN", "CUT O,(1,0)", "RUN", "CUT O,(1,0)", "END"],

@@ -74,6 +74,7 @@ class Cutter:
         grid(p)  # (error 10 before anything is done)
         if self.moved:
             self._end_route()
+            self.tape.check_move(p)
             self.tape.stop()
             self._straight(p, "reposition")
             self.tape.stop()
@@ -101,7 +102,7 @@ class Cutter:
 
     def fillet(self, radius: Real, right: bool) -> None:
         """A number of CUT."""
-        if radius <= 0:
+        if radius == 0:
             raise Fault(Code.RANGE)
         self._open_route().wait_fillet(radius * self.scale, right)
 

@@ -132,12 +132,18 @@ class Interpreter:
                 if error is not None:
                     return error
                 continue
-            if line.statement is None:
-                self.program.pop(line.number, None)
-            else:
-                self.program[line.number] = line.statement
-            self._forget_places()
+            self._edit(line.number, line.statement)
         return None
+
+    def _edit(self, number: int, statement: Statement | None) -> None:
+        """Store a line, or take it out (None); a number that is no line's does nothing."""
+        if statement is None and number not in self.program:
+            return
+        if statement is None:
+            del self.program[number]
+        else:
+            self.program[number] = statement
+        self._forget_places()
 
     def _forget_places(self) -> None:
         """Forget what belongs to the last program: the open route, the places of DATA and GOSUB."""

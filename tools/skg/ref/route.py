@@ -167,7 +167,7 @@ class Route:
     # Taking items ---------------------------------------------------------------------------------------
 
     def wait_fillet(self, radius: Real, right: bool = False) -> None:
-        """A fillet radius, positive, for the next corner; `right`: a `;` stands before it."""
+        """A fillet radius for the next corner, negative: which turns right; `right`: a `;` stands before it."""
         entered_here = self.point is not None and self.element is None
         if not self.items or self.fillet is not None or entered_here:
             raise Fault(Code.GEOMETRY)
@@ -301,8 +301,9 @@ class Route:
     def _fillet(self, e: Element, f: Element, corner: Point, radius: Real) -> tuple[Circle, Point, Point] | None:
         """The arc that rounds the corner between the elements as drawn, and its points on both.
 
-        None where the corner turns too little; error 6 when it goes back, or when the arc does not fit. The centre
-        is the crossing of both curves moved inwards by the radius (formula 9-7 of the SKG book).
+        None where the corner turns too little; error 6 when it goes back, when the arc does not fit, or when the radius
+        is negative and the corner turns left. The centre is the crossing of both curves moved inwards by the radius
+        (formula 9-7 of the SKG book).
         """
         turn = turn_angle(e.nominal, f.nominal, corner)
         near.note("fillet left out", (abs(turn) - SAME_WAY) / SAME_WAY, near.RELATIVE)
@@ -310,7 +311,9 @@ class Route:
             return None
         if near.at_most(real.mp.pi - abs(turn), SAME_WAY, "opposite direction"):
             raise Fault(Code.GEOMETRY)
-        signed = radius if turn > 0 else -radius
+        if radius < 0 < turn:
+            raise Fault(Code.GEOMETRY)
+        signed = abs(radius) if turn > 0 else -abs(radius)
         inner_e, inner_f = _moved_inwards(e.nominal, signed), _moved_inwards(f.nominal, signed)
         middle = _chosen(crossings(inner_e, inner_f, ZERO), signed < 0)
         arc = Circle(middle.x, middle.y, signed)

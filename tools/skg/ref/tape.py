@@ -17,8 +17,9 @@ Grid = tuple[int, int]
 
 
 def micrometres(value: Real) -> int:
-    """A length in mm rounded to the µm: ⌊1000·|v| + 0.502⌋ with the sign of v; error 10 for 100 m or more."""
-    scaled = 1000 * abs(value) + Real("0.502")
+    """A length in mm rounded to the µm: ⌊1000·|v| + 0.502⌋ with the sign of v; error 10 for 100 m or more, 5 where
+    1000·|v| is no number."""
+    scaled = real.in_range(1000 * abs(value)) + Real("0.502")
     size = int(real.mp.floor(scaled))
     near.note("rounding", scaled - real.mp.nint(scaled), 1e-3)
     if size >= TOO_LONG:
@@ -137,6 +138,11 @@ class Punch:
     def place(self, p: Point) -> None:
         """Take the wire to be at p without a block."""
         self.position = grid(p)
+
+    def check_move(self, end: Point) -> None:
+        """Error 10 when the straight move to a place does not fit in a block."""
+        x, y = grid(end)
+        line_block(x - self.position[0], y - self.position[1])
 
     def line(self, end: Point) -> None:
         """A straight move; nothing when the rounded ends coincide."""
