@@ -21,6 +21,7 @@ define HELP
   make web-wasm   the page's .wasm from emu/: needs clang 14 and lld 14
   make hunt       new examples for the tests that take any, random programs, ROM against reference (PROGRAMS=1000000, SEED)
   make pico       the machine for a Raspberry Pi Pico, build/pico/skg-pico.uf2; make test-pico runs it in rp2040js
+  make board      the netlist of docs/board.md, looked through by SKiDL's electrical rules
   make release    packages for other systems in dist/; make release-test tries them
   make clean      removes build/
 endef
@@ -29,7 +30,7 @@ VENV   := .venv
 PY     := $(VENV)/bin/python
 PAGES  := tests/floats/bounds.py tests/tools/test_drift.py tests/tools/test_dxf.py tests/tools/test_docs.py tests/tools/test_shop.py \
           tests/rom/test_circles.py tests/docs/test_curves.py tests/docs/test_manual.py tests/docs/test_chinese.py tests/docs/test_walk.py \
-          tests/docs/test_figures.py
+          tests/docs/test_figures.py tests/docs/test_board.py
 PART   ?= examples/xy-fig1-loop.skg
 
 all: build/skg80 rom-age
@@ -97,7 +98,7 @@ t: venv asm80 emu tools web-modules
 	$(PY) -m pytest -q $(if $(findstring tests,$(T)),,tests) $(T)
 
 # Style. Not formatted: C files in .clang-format-ignore (tables made by hand), assembly (in columns, by hand).
-RUFF      := --config tools/pyproject.toml tools asm tests release pico
+RUFF      := --config tools/pyproject.toml tools asm tests release pico docs/board
 C_SOURCES := $(filter-out emu/terminal_windows.c,$(wildcard $(foreach folder,emu tests/emu tests/fuzz,$(folder)/*.c)))
 C_STYLED  := $(wildcard $(foreach folder,emu pico tests/emu tests/emu/micro tests/fuzz tools/skg/native web/wasm,$(folder)/*.[ch]) \
                         $(foreach folder,arduino/SKG/src tests/arduino,$(folder)/*.h $(folder)/*.cpp))
@@ -127,7 +128,14 @@ bench-rom: venv emu
 	@$(PY) tests/rom/bench.py
 	@PYTHONPATH=tests $(PY) tests/drive/bench.py
 
+# SKiDL in an environment of its own: it brings much along.
+board: build/board/bin/python
+	cd build/board && bin/python ../../docs/board/minimal.py
+build/board/bin/python:
+	$(PYTHON) -m venv build/board
+	build/board/bin/pip install -q --disable-pip-version-check skidl==3.0.0
+
 clean:
 	rm -rf build
 
-.PHONY: all help rom-age venv run test t format lint docs bench bench-rom clean
+.PHONY: all help rom-age venv run test t format lint docs bench bench-rom board clean
