@@ -212,7 +212,7 @@ def test_program_with_an_error(run_program: Run, tmp_path: Path) -> None:
     part = tmp_path / "bad.skg"
     part.write_text("10 A=1/0\n20 END\n")
     result = run_program("plot", part, "-o", tmp_path / "x.svg", "--skg80", "reference")
-    assert (result.returncode, result.stderr) == (2, f"skg: {part}: ERR 05 LINE 10\n")
+    assert (result.returncode, result.stderr) == (2, f"skg: {part}: ERR 05 LINE 10, number out of range\n")
 
 
 def squares(count: int) -> Picture:

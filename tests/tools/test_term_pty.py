@@ -236,16 +236,16 @@ WRONG = {
     "unnumbered": (
         "FROM O\nCUT (1,0),(2,0)\n\nCUT (5,5):-A\nCUT (9,9)\nEND\n",
         ["--run"],
-        "part.skg, line 4: ERR 03, name without a value; O, X or Y assigned; nothing more was sent",
+        "part.skg: line 4: ERR 03, name without a value; O, X or Y assigned; nothing more was sent",
         b"(9,9)",
     ),
     "run": (
         "10 CUT O,(5,0)\n20 A=1/0\n",
         ["--run"],
-        "part.skg, at `RUN`: ERR 05 LINE 20, number out of range;",
+        "part.skg: at `RUN`: ERR 05 LINE 20, number out of range;",
         b"END",
     ),
-    "stored": ("10 REM A\n20 XYZ=\n30 REM B\n", [], "part.skg, line 2: ERR 01, statement or expr", b"30 REM B"),
+    "stored": ("10 REM A\n20 XYZ=\n30 REM B\n", [], "part.skg: line 2: ERR 01, statement or expr", b"30 REM B"),
     "full": (zigzag(60, numbered=True), [], ": ERR 09, memory full: --run sends it without its line numbers", b">600"),
     "full and jumps": (
         zigzag(60, numbered=True) + "9999 IF 1>2 GOTO 10\n",

@@ -14,9 +14,11 @@ from typing import NoReturn
 
 import click
 
-from skg.errors import UserError
+from skg.errors import UserError, of_system
 from skg.garbage import collect_rarely
 from skg.messages.finding import Finding, Phrase
+from skg.messages.help import speak, translated, translations
+from skg.messages.render import language_of_system, speech
 from skg.terminal import tell
 
 # numpy's linear algebra, which skg does without, would start a thread for each processor: a quarter of a short run.
@@ -65,7 +67,7 @@ class LazyGroup(click.Group):
         """The subcommand's click command, or None for an unknown name."""
         if cmd_name not in COMMANDS:
             return None
-        return import_module(f"skg.commands.{cmd_name.replace('-', '_')}").command
+        return translated(import_module(f"skg.commands.{cmd_name.replace('-', '_')}").command, speech.language)
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]
@@ -73,13 +75,19 @@ class LazyGroup(click.Group):
         """Find a subcommand; for a mistyped one the message has the nearest."""
         if args and args[0] not in COMMANDS and not args[0].startswith("-"):
             near = get_close_matches(args[0], COMMANDS, 1, 0.5)
-            ctx.fail(f"no such command {args[0]!r}" + (f", did you mean {near[0]}?" if near else ""))
+            why = Phrase("no-command-near", name=args[0], near=near[0]) if near else Phrase("no-command", name=args[0])
+            ctx.fail(str(why))
         return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """List the subcommands without importing them."""
-        with formatter.section("Commands"):
-            formatter.write_dl(list(COMMANDS.items()))
+        words = translations(speech.language)
+        with formatter.section(words.gettext("Commands")):
+            formatter.write_dl([(name, words.gettext(summary)) for name, summary in COMMANDS.items()])
+
+    def format_help(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the help in the language that is spoken."""
+        click.Group.format_help(translated(self, speech.language), ctx, formatter)
 
 
 def _print_version(ctx: click.Context, _option: click.Parameter, is_asked: bool) -> None:
@@ -96,16 +104,15 @@ def _print_version(ctx: click.Context, _option: click.Parameter, is_asked: bool)
     ctx.exit()
 
 
-def _speak(_ctx: click.Context, _option: click.Parameter, language: str | None) -> None:
+def _speak(_ctx: click.Context | None, _option: click.Parameter | None, language: str | None) -> None:
     """Choose the language: as asked for, else the system's where the terminal has its characters."""
-    from skg.messages.render import language_of_system, speech
-
     speech.language = language or language_of_system()
     if not language and speech.language == "zh" and sys.stderr is not None:
         try:
             "中文".encode(sys.stderr.encoding or "utf-8")
         except UnicodeError:
             speech.language = "en"
+    speak(speech.language)
 
 
 # (a default of nothing says show_default=False)
@@ -146,6 +153,8 @@ def main() -> None:
     _prepare(sys.stdout)
     _prepare(sys.stderr)
     collect_rarely()
+    # (for an error before --lang)
+    _speak(None, None, None)
     try:
         try:
             # (click alone would take four lines for wrong usage)
@@ -155,7 +164,7 @@ def main() -> None:
         _flush()
     except click.UsageError as error:
         name = error.ctx.command_path if error.ctx else "skg"
-        _fail(f"{error.format_message().rstrip('.')} (see {name} --help)")
+        _fail(str(Phrase("wrong-usage", what=error.format_message().rstrip(".。"), command=name)))
     except click.ClickException as error:
         _fail(error.format_message())
     except UserError as error:
@@ -168,7 +177,7 @@ def main() -> None:
         if error.filename == "":
             _fail(str(Finding("empty-file-name")))
         name = Phrase("stdout") if error.filename is None else error.filename
-        _fail(str(Finding("system", detail=error.strerror).within(name)))
+        _fail(str(of_system(error).within(name)))
     # (else the interpreter looks through all that is left, and through all modules, once more before it ends)
     gc.freeze()
     sys.exit(code)

@@ -2,12 +2,34 @@
 
 from __future__ import annotations
 
+import errno
 from typing import TYPE_CHECKING
 
 from skg.messages.finding import Finding, Phrase
 
 if TYPE_CHECKING:
     from skg.messages.render import Speech
+
+
+#: Errors of the system that have a sentence of their own: their numbers, their codes.
+_OF_SYSTEM = {
+    errno.ENOENT: "system-no-file",
+    errno.EACCES: "system-no-permission",
+    errno.EISDIR: "system-is-folder",
+    errno.ENOTDIR: "system-no-folder",
+    errno.ENOSPC: "system-full",
+    errno.EROFS: "system-read-only",
+    errno.EIO: "system-input-output",
+    errno.EBUSY: "system-busy",
+    errno.ENAMETOOLONG: "system-long-name",
+    errno.EADDRINUSE: "system-port-taken",
+}
+
+
+def of_system(error: OSError) -> Finding:
+    """An error of the system."""
+    code = _OF_SYSTEM.get(error.errno)
+    return Finding(code) if code else Finding("system", detail=error.strerror or str(error))
 
 
 class UserError(Exception):

@@ -35,8 +35,8 @@ from skg.job.job import INTO, ROMS, SMALL, Job, MachineSetup
 from skg.job.read_options import OPEN, START, UNITS
 from skg.job.values import MOST_OFFSET
 from skg.job.wanted import LEAD, LEAD_SHAPES, SIDES, Partial, Wanted
-from skg.messages.finding import Finding
-from skg.messages.render import Medium, Speech, data, line, speech, text
+from skg.messages.finding import Finding, Phrase
+from skg.messages.render import Medium, Speech, data, line, speech
 from skg.reading.read import Wishes, layer_lines
 from skg.tape.dialect import GcodeDialect
 from skg.tape.gcode import is_gcode
@@ -58,7 +58,7 @@ class JobValue(click.ParamType):
         try:
             return self.check(value)
         except values.Wrong as wrong:
-            return self.fail(f"{value!r}: {text(wrong.why)}", param, ctx)
+            return self.fail(str(Phrase("value-wrong", value=repr(value), why=wrong.why)), param, ctx)
 
 
 #: Numbers with commas between them, none below 0, such as 0.06,0.02,0.
@@ -81,7 +81,7 @@ class Encoding(click.ParamType):
         try:
             return codecs.lookup(str(value)).name
         except LookupError:
-            self.fail(f"{value!r}: unknown, expected one such as GBK, Big5, Shift_JIS or Windows-1251", param, ctx)
+            self.fail(str(Phrase("no-encoding", value=repr(value))), param, ctx)
 
 
 #: Options allowed beside a job file: files to write, and how much to print.
@@ -159,15 +159,14 @@ _BESIDE_A_JOB = ("file", "output", "dialect", "list_layers", "program", "sheet",
     "--passes",
     metavar="MM,MM,...",
     type=PASSES,
-    help="Cut each contour so often, every second time backwards; what each pass leaves to the last offset, "
-    "such as 0.06,0.02,0.",
+    help="Stock that each pass leaves, mm: 0.06,0.02,0 is three passes. Every second one runs backwards.",
 )
 @click.option(
     "--tab",
     default=0.0,
     show_default=False,
     type=Millimetres(0),
-    help="Length of the tab, a bridge that keeps a part cut from outside; the machine stops, the last cut frees it.",
+    help="Length of the tab, a bridge that keeps a part in the stock; the machine stops, the last cut frees the part.",
 )
 @click.option(
     "--slug-tab", default=0.0, show_default=False, type=Millimetres(0), help="The same for the slug of an opening."
@@ -183,14 +182,14 @@ _BESIDE_A_JOB = ("file", "output", "dialect", "list_layers", "program", "sheet",
     "--tab-passes",
     metavar="MM,MM,...",
     type=MORE_PASSES,
-    help="Stock that further cuts of a tab leave, mm, behind one that leaves as much as the first pass. Default: none.",
+    help="Stock that further cuts of a tab leave, mm; its first cut leaves as much as the first pass. Default: none.",
 )
 @click.option(
     "--overlap",
     default=0.0,
     show_default=False,
     type=Millimetres(0),
-    help="Cut so far past the start of a closed contour, and past both ends of a tab.",
+    help="Cut this far past the start of a closed contour, and past both ends of a tab.",
 )
 @click.option(
     "--small",
@@ -203,8 +202,7 @@ _BESIDE_A_JOB = ("file", "output", "dialect", "list_layers", "program", "sheet",
     "--into",
     default="refuse",
     type=click.Choice(INTO),
-    help="Refuse or cut closed contours whose wire would gouge another one, since they cross or lie too near to "
-    "each other.",
+    help="Refuse or cut closed contours whose wire would gouge another one.",
 )
 @click.option(
     "--rom",
@@ -217,7 +215,7 @@ _BESIDE_A_JOB = ("file", "output", "dialect", "list_layers", "program", "sheet",
 @click.option("--material", metavar="TEXT", type=WORDS, help="Material of the stock, for the setup sheet.")
 @click.option("--thickness", metavar="TEXT", type=WORDS, help="Thickness of the stock, for the setup sheet.")
 @click.option(
-    "--save-job", metavar="FILE", type=click.Path(), help="Also write what was asked for, as a job file: .job.toml."
+    "--save-job", metavar="FILE", type=click.Path(), help="Also write the settings, as a job file: .job.toml."
 )
 @machine_option(
     "Write G-code for this machine instead of 3B: one that comes with skg (docs/machines.md), or a file .toml."

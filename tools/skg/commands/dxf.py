@@ -42,8 +42,8 @@ def command(
     FILE is a tape (3B, or G-code as .nc, .ngc, .gcode, .tap, .iso) or a program (.skg, .xy, .tkh), which is run first;
     `-`: a tape on the standard input.
 
-    Layers: WIRE is what is cut, LEAD the way from the start hole to the contour, MOVES what is no cut; START and STOPS
-    have points, and HOLES, of a milling tape.
+    Layers: WIRE has the cuts, LEAD the ways from start holes to contours, MOVES the moves without a cut; START, STOPS
+    and, of a milling tape, HOLES have points.
     """
     from skg.pictures.dxf import write
     from skg.sources.load import iso_program, lay_out, load

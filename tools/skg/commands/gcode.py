@@ -18,7 +18,7 @@ from skg.terminal import remark
 
 #: mm/min, where nothing else is said.
 FEED = 100.0
-_ONE_OR_TWO = Numbers("D[,D1]", "a number, or two", 1, 2)
+_ONE_OR_TWO = Numbers("D[,D1]", "one-or-two-numbers", 1, 2)
 
 
 def _feeds(feed: tuple[float, ...] | None) -> tuple[float, float]:
@@ -70,9 +70,9 @@ def command(
 ) -> None:
     """Turn a 3B tape into G-code that LinuxCNC and GRBL take as it is, or with --back G-code into a 3B tape.
 
-    Written is the dialect of the milling ROM: G17 G21 G90 G94, G0 to G3 with I and J, M0 for a stop, M30; `skg plot`
-    and `skg check` read it. Read are also G20, G91, G92 and more, comments, and other people's words that do not move;
-    without G20 and G21 a number with a decimal point is millimetres, one without micrometres.
+    It writes the dialect of the milling ROM, which `skg plot` and `skg check` read: G17 G21 G90 G94, G0 to G3 with I
+    and J, M0 for a stop, M30. It also reads G20, G91, G92 and more, comments, and words of other controls that do not
+    move; without G20 and G21 a number with a decimal point is millimetres, one without micrometres.
     A program (.skg, .xy, .tkh) is run first; a milling program's tape is written as it is. FILE - (or none) is the
     standard input.
     """

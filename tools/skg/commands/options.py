@@ -185,7 +185,7 @@ class FiniteRange(click.FloatRange):
         """Return the number."""
         number = super().convert(value, param, ctx)
         if not abs(number) < 10**MAX_DIGITS:
-            self.fail(f"{value!r}: expected a number of at most {MAX_DIGITS} digits", param, ctx)
+            self.fail(str(Phrase("not-number", value=repr(value), most=MAX_DIGITS)), param, ctx)
         return number
 
 
@@ -227,14 +227,14 @@ class Numbers(click.ParamType):
             return value
         result = numbers_in(value)
         if len(result) not in self.counts:
-            self.fail(f"{value!r}: expected {self.expected} with a comma between them", param, ctx)
+            self.fail(str(Phrase("not-numbers", value=repr(value), expected=Phrase(self.expected))), param, ctx)
         if not all(abs(number) < 10**MAX_DIGITS for number in result):
-            self.fail(f"{value!r}: expected numbers of at most {MAX_DIGITS} digits", param, ctx)
+            self.fail(str(Phrase("long-numbers", value=repr(value), most=MAX_DIGITS)), param, ctx)
         return result
 
 
 #: A place.
-COORDINATES = Numbers("X,Y", "two numbers", 2)
+COORDINATES = Numbers("X,Y", "two-numbers", 2)
 start_option = click.option(
     "--start", type=COORDINATES, help="Place of the start hole, mm. Default: FROM of a program, else 0,0."
 )

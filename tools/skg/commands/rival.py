@@ -18,8 +18,8 @@ def translator(name: str, ending: str, language: str) -> click.Command:
         name=name,
         help=f"""Write the SKG program that cuts what PART describes in {language}.
 
-        What is wrong with PART is said as FILE:LINE:COLUMN: TEXT, with exit code 1 and no program. PART - is the
-        standard input.""",
+        An error in PART is one line, FILE:LINE:COLUMN: TEXT, with exit code 1 and no program. PART - is the standard
+        input.""",
     )
     @click.argument("part", type=click.Path(allow_dash=True))
     @output_option("Program to write, - for the standard output.")

@@ -25,7 +25,7 @@ from skg.tape.styles import STYLES, to_style
 def command(file: str, output: str, style: str) -> None:
     """Read a 3B tape as anybody writes it, and write it in one style.
 
-    What was different from the punch's own style is said on standard error. A program (.skg, .xy, .tkh) is run first.
+    Differences from the punch's own style are listed on standard error. A program (.skg, .xy, .tkh) is run first.
     FILE - (or none) is the standard input.
     """
     tape = load(file)

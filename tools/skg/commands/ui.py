@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from skg.errors import UserError
+from skg.errors import UserError, of_system
 from skg.messages.finding import Finding
 from skg.messages.render import text
 from skg.terminal import tell
@@ -54,7 +54,7 @@ def command(file: Path | None, port: int, no_browser: bool, until_eof: bool) -> 
         try:
             server = Server(port, session)
         except OSError as error:
-            raise UserError(Finding("port-failed", port=port, detail=error.strerror)) from None
+            raise UserError(Finding("port-failed", port=port, detail=of_system(error))) from None
         with server, _way_to(server.url, server.is_seen, no_browser) as address:
             session.begin(file)
             click.echo(server.url)

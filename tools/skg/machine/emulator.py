@@ -21,7 +21,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from skg.errors import UserError
+from skg.errors import UserError, of_system
 from skg.messages.finding import Finding
 from skg.native import load
 
@@ -73,7 +73,7 @@ def read_rom(path: str) -> tuple[bytes, list[int]]:
         with open(path, "rb") as file:  # noqa: PTH123  (a Path forgets a "/" at the end)
             data = file.read(_ROM_FILE + 1)
     except OSError as error:
-        raise UserError(Finding("system", detail=error.strerror).within(path)) from None
+        raise UserError(of_system(error).within(path)) from None
     if len(data) > _ROM_FILE:
         raise UserError(Finding("rom-too-large", most=_ROM_FILE).within(path))
     rom, given, error = (ctypes.create_string_buffer(size) for size in (ROM_SIZE, ROM_SIZE, 512))

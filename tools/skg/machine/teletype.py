@@ -21,7 +21,7 @@ from io import RawIOBase
 import serial
 from tqdm import tqdm
 
-from skg.errors import UserError
+from skg.errors import UserError, of_system
 from skg.machine.board import ErrorLine, find_error
 from skg.machine.keyboard import ESCAPE, TERMINAL_TROUBLE
 from skg.messages.finding import Finding, Phrase
@@ -151,10 +151,12 @@ class Port:
 
 def _reason(error: Exception) -> str | Phrase:
     """An error's own words, without the wrapping that pyserial puts around them."""
-    if isinstance(cause := error.__context__, TERMINAL_TROUBLE):
-        return Phrase("no-serial-port") if cause.args[0] == errno.ENOTTY else os.strerror(cause.args[0]).lower()
-    if isinstance(error, OSError) and error.errno:
-        return os.strerror(error.errno).lower()
+    cause = error.__context__
+    number = cause.args[0] if isinstance(cause, TERMINAL_TROUBLE) else getattr(error, "errno", None)
+    if number == errno.ENOTTY and isinstance(cause, TERMINAL_TROUBLE):
+        return Phrase("no-serial-port")
+    if number:
+        return of_system(OSError(number, os.strerror(number)))
     return str(error).splitlines()[0] if str(error) else type(error).__name__
 
 
@@ -219,7 +221,7 @@ class Teletype:
             # Nobody reads the paper any more: the tape is made all the same.
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         except OSError as error:
-            raise UserError(Finding("system", detail=error.strerror).within(Phrase("stdout"))) from None
+            raise UserError(of_system(error).within(Phrase("stdout"))) from None
 
     def punch(self, data: bytes) -> None:
         """Record what the port punched."""
@@ -231,7 +233,7 @@ class Teletype:
             try:
                 self.record.write(data)
             except OSError as error:
-                raise UserError(Finding("system", detail=error.strerror).within(self.record.name)) from None
+                raise UserError(of_system(error).within(self.record.name)) from None
         if self.show_bars:
             if self.punching is None:
                 self.punching = tqdm(unit="block", desc="punching", leave=False)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from threading import Condition, Event, Lock, Thread
 
-from skg.errors import UserError
+from skg.errors import UserError, of_system
 from skg.files import read_bytes, write_bytes
 from skg.job.job import ROMS
 from skg.messages.finding import Finding, Phrase
@@ -127,7 +127,7 @@ class Session:
             if not path.exists():
                 write_bytes(str(path), data)
         except OSError as error:
-            raise UserError(Finding("page-not-kept", file=path.name, detail=error.strerror)) from None
+            raise UserError(Finding("page-not-kept", file=path.name, detail=of_system(error))) from None
         return path.name
 
     def _has_changes(self) -> bool:
@@ -302,7 +302,7 @@ class Session:
             try:
                 data = path.read_bytes()
             except OSError as error:
-                self._say(Finding("shown-is-older", detail=error.strerror).within(path.name))
+                self._say(Finding("shown-is-older", detail=of_system(error)).within(path.name))
                 continue
             if data == self._data:
                 self._say(None)
@@ -438,7 +438,7 @@ class Session:
                 write_bytes(str(folder / name), data)
             except OSError as error:
                 done = Phrase("already-written", names=tuple(written)) if written else None
-                raise UserError(Finding("not-written", detail=error.strerror, done=done).within(name)) from None
+                raise UserError(Finding("not-written", detail=of_system(error), done=done).within(name)) from None
             written.append(name)
         if "job" in kinds:
             self._note_saved(number)
