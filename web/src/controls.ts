@@ -1,6 +1,7 @@
 /** The page's buttons and files' doors. */
 import { get, onClick } from "./dom.ts";
 import { tooLarge } from "./files.ts";
+import { copyPicture, film } from "./film.ts";
 import { t } from "./language.ts";
 import { say } from "./message.ts";
 import type { Opening } from "./opening.ts";
@@ -23,6 +24,13 @@ export function bind(bench: Workbench, teletype: Teletype, opening: Opening, set
   onClick("tear", () => teletype.clear());
   onClick("copy-link", () => void copyLink(bench));
   onClick("copy-embed", () => void copyEmbed(bench));
+  const { pictures, recording } = bench.stage;
+  const ifDrawn = (use: (name: string) => Promise<void>): void => {
+    if (recording.isEmpty) say("noBlocks");
+    else void use(recording.made.name);
+  };
+  onClick("copy-picture", () => ifDrawn((name) => copyPicture(pictures.filmed, name)));
+  onClick("film", () => ifDrawn((name) => film(pictures.filmed, name)));
   for (const button of document.querySelectorAll<HTMLElement>("[data-save]")) {
     button.addEventListener("click", () => void save(button.dataset["save"] ?? "", bench, settings, works));
   }

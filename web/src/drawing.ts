@@ -45,8 +45,23 @@ export interface Wire {
   done: number;
 }
 
+/** What an underlay gets: the window, the tape and its bounds in µm, the wire and its diameter. */
+export interface Scene {
+  view: View;
+  layout: Layout;
+  extent: Box;
+  walk: Wire;
+  wire: number;
+}
+
+/** A picture under the wire, in the place of the plain drawing; true: it wants to be drawn again. */
+export interface Underlay {
+  draw(context: CanvasRenderingContext2D, scene: Scene): boolean;
+}
+
 export class Drawing {
   readonly view = new View();
+  #underlay: Underlay | undefined;
   readonly #base: HTMLCanvasElement;
   readonly #over: HTMLCanvasElement;
   readonly #chooser: Chooser;
@@ -146,6 +161,25 @@ export class Drawing {
   set colours(colours: Colours) {
     this.#colours = colours;
     this.#ask(true);
+  }
+
+  /** Drawn while the wire is on its way, for a tape that is not too long. */
+  set underlay(underlay: Underlay | undefined) {
+    this.#underlay = underlay;
+    this.#ask(false);
+  }
+
+  /** The drawing as it is seen, on a background; on the canvas that is given, or on a new one. */
+  picture(background: string, onto = document.createElement("canvas")): HTMLCanvasElement {
+    this.draw();
+    const { width, height } = this.#base;
+    if (onto.width !== width || onto.height !== height) Object.assign(onto, { width, height });
+    const context = onto.getContext("2d");
+    if (!context) return onto;
+    context.fillStyle = background;
+    context.fillRect(0, 0, width, height);
+    for (const canvas of [this.#base, this.#over]) context.drawImage(canvas, 0, 0);
+    return onto;
   }
 
   /** Lines of a grid, and the axes. */
@@ -427,6 +461,7 @@ export class Drawing {
     context.setTransform(this.#pixels, 0, 0, this.#pixels, 0, 0);
     context.clearRect(0, 0, ...this.#size);
     const { blocks } = this.#layout;
+    const isUnder = this.#drawUnder(context);
     const { choice } = this.#chooser;
     const chosen = chosenBlocks(choice, blocks);
     if (chosen.size) {
@@ -449,10 +484,11 @@ export class Drawing {
     if (!walk) return;
     context.strokeStyle = this.#colours.walk;
     context.lineWidth = blocks.length > MANY ? 1 / this.#pixels : 2.5;
-    for (const path of this.#trace(0, ({ role, number }) => role === "cut" && number <= walk.at)) context.stroke(path);
+    const isCut = ({ role, number }: Placed): boolean => role === "cut" && number <= walk.at;
+    if (!isUnder) for (const path of this.#trace(0, isCut)) context.stroke(path);
     const [x, y] = this.view.toPixel(walk.place);
     const present = blocks[walk.at];
-    if (present) {
+    if (present && !isUnder) {
       const part = { ...present, sweep: present.sweep * walk.done, end: walk.place };
       for (const path of this.#trace(0, () => true, [part])) context.stroke(path);
     }
@@ -460,6 +496,13 @@ export class Drawing {
     context.arc(x, y, Math.max(4, (this.#wireWidth / 2) * this.view.scale), 0, 2 * Math.PI);
     context.fillStyle = this.#colours.walk;
     context.fill();
+  }
+
+  #drawUnder(context: CanvasRenderingContext2D): boolean {
+    const [walk, underlay, extent, layout] = [this.#walk, this.#underlay, this.#extent, this.#layout];
+    if (!walk || !underlay || !extent || layout.blocks.length > MANY) return false;
+    if (underlay.draw(context, { view: this.view, layout, extent, walk, wire: this.#wireWidth })) this.#ask(false);
+    return true;
   }
 
   /** Pans so that what was chosen elsewhere can be seen, when nothing of it can. */

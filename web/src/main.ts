@@ -14,6 +14,7 @@ import { rove } from "./roving.ts";
 import { Session } from "./session.ts";
 import { SettingsMenu, sound } from "./settings.ts";
 import { isSmall, view } from "./shell.ts";
+import { Sound } from "./sound.ts";
 import { StatusLine } from "./statusline.ts";
 import { type Settings, Store } from "./store.ts";
 import { Teletype } from "./teletype.ts";
@@ -34,6 +35,8 @@ const settings: Settings = {
   wire: WIRE,
   auto: false,
   grid: false,
+  plate: true,
+  sound: false,
   ...sound(store.settings),
 };
 
@@ -44,6 +47,8 @@ const bench = new Workbench({ works, partOf, isAuto: () => settings.auto, openMa
 const teletype = new Teletype(get("terminal"), { type: (text) => session.type(text), press: (key) => session.press(key) }, "");
 const status = new StatusLine(bench, teletype);
 const inside = new Inside();
+const sounds = new Sound();
+bench.stage.pictures.onPlay = (isPlaying) => (sounds.isCutting = isPlaying);
 const welcome = new Welcome(bench.stage);
 let before = "";
 const session = new Session(workerAddress(), teletype, isEmbedded ? undefined : store, {
@@ -55,7 +60,11 @@ const session = new Session(workerAddress(), teletype, isEmbedded ? undefined : 
     }
     status.show(state);
   },
-  punched: (punched) => bench.punched(punched),
+  punched: (punched) => {
+    bench.punched(punched);
+    for (const each of punched) if ("text" in each) sounds.punch(each.text.length);
+  },
+  printed: (characters) => sounds.print(characters),
   memory: (program) => {
     bench.memory(program, before);
     before = program;
@@ -104,6 +113,10 @@ function tellParts(): void {
   if (there) opening.tell(there);
 }
 
+menu.onSound = (isOn, isReal) => {
+  sounds.isReal = isReal;
+  sounds.isOn = isOn;
+};
 menu.onLanguage = () => {
   status.retell();
   if (opening.parts.length) tellParts();

@@ -4,7 +4,9 @@ import { partTitle } from "./catalogue.ts";
 import type { Chooser } from "./choice.ts";
 import { get } from "./dom.ts";
 import { Drawing } from "./drawing.ts";
+import type { Filmed } from "./film.ts";
 import { t } from "./language.ts";
+import { Plate } from "./plate.ts";
 import { PunchedTape } from "./punched.ts";
 import type { Maker, Recording } from "./recording.ts";
 import { WalkBar } from "./walkbar.ts";
@@ -20,6 +22,9 @@ export class Pictures {
   readonly drawing: Drawing;
   readonly list: BlockList;
   readonly punched: PunchedTape;
+  readonly plate = new Plate();
+  /** Called when the wire sets out, and when it stands. */
+  onPlay: ((isPlaying: boolean) => void) | undefined;
   readonly #chooser: Chooser;
   readonly #recording: Recording;
   #walkBar: WalkBar | undefined;
@@ -52,6 +57,7 @@ export class Pictures {
       const first = offsets[number - 1] ?? 0;
       this.punched.show(text, first + part * ((offsets[number] ?? text.length) - first));
     });
+    this.#walkBar.onPlay = (isPlaying) => this.onPlay?.(isPlaying);
     if (!this.#recording.layout.blocks.length) return;
     this.#walkBar.begin(this.#recording.layout);
     this.measured = this.#walkBar.grown();
@@ -60,6 +66,20 @@ export class Pictures {
   /** The walk begins. */
   play(): void {
     this.#walkBar?.play();
+  }
+
+  /** Steel under the wire, or its plain path. */
+  set isPlate(isPlate: boolean) {
+    this.drawing.underlay = isPlate ? this.plate : undefined;
+  }
+
+  /** What may be filmed: the drawing, and the wire on its way. */
+  get filmed(): Filmed {
+    const { drawing, plate } = this;
+    return {
+      picture: (onto) => drawing.picture(plate.steel.floor, onto),
+      at: (part) => this.#walkBar?.at(part),
+    };
   }
 
   /** Another tape, empty or whole. */

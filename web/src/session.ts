@@ -15,6 +15,8 @@ const NOTHING: Kept = { ram: "", program: "", rom: "", paper: "" };
 export interface Hooks {
   state(state: State): void;
   punched(punched: readonly Punched[]): void;
+  /** So many characters are on the paper. */
+  printed(characters: number): void;
   /** The program in the machine is this, now. */
   memory(program: string): void;
   /** An ERR on the paper; line 0: of a command. */
@@ -52,6 +54,7 @@ export class Session {
     this.#machine = new Machine(worker, {
       out: (paper, punched, seen) => {
         teletype.print(paper, seen);
+        hooks.printed(paper.length);
         if (punched.length) hooks.punched(punched);
         errors.read(paper);
       },

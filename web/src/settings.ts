@@ -6,16 +6,18 @@ import type { Teletype } from "./teletype.ts";
 import { onSystemTheme, paint } from "./theme.ts";
 import type { Workbench } from "./workbench.ts";
 
+/** Settings of two values. */
+const CHOICES = ["auto", "grid", "plate", "sound"] as const;
+
 /** Takes from what was kept or brought in what is a setting, and nothing else. */
 export function sound(found: Partial<Settings>): Partial<Settings> {
-  const { speed, language, theme, wire, auto, grid } = found;
+  const { speed, language, theme, wire } = found;
   return {
     ...(speed === "fast" || speed === "real" ? { speed } : {}),
     ...(language === "en" || language === "zh" ? { language } : {}),
     ...(theme === "auto" || theme === "light" || theme === "dark" ? { theme } : {}),
     ...(typeof wire === "number" && wire >= 0 && wire <= 5 ? { wire } : {}),
-    ...(typeof auto === "boolean" ? { auto } : {}),
-    ...(typeof grid === "boolean" ? { grid } : {}),
+    ...Object.fromEntries(CHOICES.filter((name) => typeof found[name] === "boolean").map((name) => [name, found[name]])),
   };
 }
 
@@ -25,6 +27,8 @@ export class SettingsMenu {
   readonly #teletype: Teletype;
   /** Called when the language has changed: who writes of himself writes anew. */
   onLanguage: () => void = () => undefined;
+  /** Called with what is to be heard: anything, and the machine at its own speed. */
+  onSound: (isOn: boolean, isReal: boolean) => void = () => undefined;
 
   constructor(settings: Settings, bench: Workbench, teletype: Teletype, keep: (changed: Partial<Settings>) => void) {
     this.settings = settings;
@@ -40,8 +44,7 @@ export class SettingsMenu {
     on("language", ({ value }) => ({ language: value }));
     on("theme", ({ value }) => ({ theme: value as Theme }));
     on("wire", ({ valueAsNumber }) => ({ wire: valueAsNumber || 0 }));
-    on("auto", ({ checked }) => ({ auto: checked }));
-    on("grid", ({ checked }) => ({ grid: checked }));
+    for (const name of CHOICES) on(name, ({ checked }) => ({ [name]: checked }));
     onSystemTheme(() => this.#paint());
   }
 
@@ -49,13 +52,15 @@ export class SettingsMenu {
     const { settings } = this;
     Object.assign(settings, sound(changed));
     for (const id of ["speed", "language", "theme"] as const) get<HTMLSelectElement>(id).value = settings[id];
-    for (const id of ["auto", "grid"] as const) get<HTMLInputElement>(id).checked = settings[id];
+    for (const id of CHOICES) get<HTMLInputElement>(id).checked = settings[id];
     get<HTMLInputElement>("wire").value = String(settings.wire);
     this.#bench.session.speed(settings.speed);
     const { editor } = this.#bench;
     const { pictures } = this.#bench.stage;
     pictures.drawing.wireWidth = settings.wire;
     pictures.drawing.grid = settings.grid;
+    pictures.isPlate = settings.plate;
+    this.onSound(settings.sound, settings.speed === "real");
     speak(settings.language as Language, document);
     this.#teletype.name = t("teletype");
     editor.name = t("editor");
@@ -82,6 +87,13 @@ export class SettingsMenu {
       cursorAccent: colour("panel"),
       selectionBackground: colour("chosen"),
       selectionForeground: colour("chosen-text"),
+    };
+    pictures.plate.steel = {
+      light: colour("steel"),
+      dark: colour("steel-dark"),
+      kerf: colour("kerf"),
+      floor: colour("panel"),
+      spark: colour("spark"),
     };
     pictures.punched.colours = { paper: colour("tape"), hole: colour("hole"), mark: colour("walk") };
     pictures.say();

@@ -27,6 +27,9 @@ export interface Settings {
   /** A change in the editor runs after a moment. */
   auto: boolean;
   grid: boolean;
+  /** Steel under the wire while it goes. */
+  plate: boolean;
+  sound: boolean;
 }
 
 /** Everything as one file. */

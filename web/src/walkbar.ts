@@ -33,6 +33,8 @@ export class WalkBar {
   #last = 0;
   #generation = 0;
   #problem = "";
+  /** Called when the wire sets out, and when it stands. */
+  onPlay: ((isPlaying: boolean) => void) | undefined;
 
   /** `moved` is called with the number of the block under way and how much of it is done. */
   constructor(
@@ -108,13 +110,24 @@ export class WalkBar {
   play(): void {
     if (this.#step >= this.#walk.steps) this.#step = 0;
     this.#isPlaying = this.#isShown = true;
+    this.onPlay?.(true);
     this.#parts.play.textContent = t("pause");
     this.#last = performance.now();
     requestAnimationFrame((now) => this.#frame(now));
   }
 
+  /** Puts the wire at a part of its way, 0 to 1; it stands. */
+  at(part: number): void {
+    if (this.#isPlaying) this.#stop();
+    this.#step = part * this.#walk.steps;
+    this.#isShown = true;
+    this.#parts.scrub.value = String(Math.floor(this.#step));
+    this.#show();
+  }
+
   #stop(): void {
     this.#isPlaying = false;
+    this.onPlay?.(false);
     this.#parts.play.textContent = t("play");
   }
 

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { existsSync, readFileSync } from "node:fs";
 import { after, before, describe, test } from "node:test";
 import { pack } from "../src/link.ts";
-import { AXE, begin, CHROMIUM, end, says, served, shot, visit } from "./chromium.ts";
+import { AXE, begin, CHROMIUM, drawn, end, longestTask, says, served, shot, visit } from "./chromium.ts";
 import { serve, WHOLE } from "./served.ts";
 
 interface Axe {
@@ -54,6 +54,117 @@ describe("the story", { skip: existsSync(CHROMIUM) ? false : "chromium is not in
         await context.close();
       }
     }
+  });
+
+  test("the plate: the slug drops at a stop, the part stays; a picture for the clipboard", async (t) => {
+    for (const reducedMotion of ["no-preference", "reduce"] as const) {
+      const { page, context, said } = await visit({ reducedMotion, permissions: ["clipboard-read", "clipboard-write"] });
+      await firstTape(page);
+      await says(page, "#closing", /close/);
+      const at = async (part: number) => {
+        await page.evaluate((part) => {
+          const scrub = document.getElementById("scrub") as HTMLInputElement;
+          scrub.value = String(Number(scrub.max) * part);
+          scrub.dispatchEvent(new Event("input"));
+        }, part);
+        await drawn(page);
+      };
+      /** The colour of a place, mm, on the canvas above the drawing. */
+      const colour = (x: number, y: number) =>
+        page.evaluate(
+          ([x, y]) => {
+            const [scale = 1, left = 0, top = 0, pixels = 1] = (document.getElementById("base")?.dataset["window"] ?? "")
+              .split(" ")
+              .map(Number);
+            const over = (document.getElementById("over") as HTMLCanvasElement).getContext("2d") as CanvasRenderingContext2D;
+            const [px, py] = [(left + (x ?? 0) * 1000 * scale) * pixels, (top - (y ?? 0) * 1000 * scale) * pixels];
+            return [...over.getImageData(Math.round(px), Math.round(py), 1, 1).data];
+          },
+          [x, y],
+        );
+      const isSteel = ([r = 0, , b = 0, a = 0]: number[]) => a === 255 && r > 150 && r < 230 && b >= r;
+      const isFloor = ([r = 0, g = 0, b = 0, a = 0]: number[]) => a === 255 && Math.min(r, g, b) > 250;
+      await at(0.05);
+      assert.ok(isSteel(await colour(3, 3)) && isSteel(await colour(30, 0)), "nothing is cut through yet");
+      await at(0.5);
+      if (reducedMotion === "reduce") assert.ok(isFloor(await colour(3, 3)), "it is gone, without falling");
+      await page.waitForTimeout(900);
+      await drawn(page);
+      assert.ok(isFloor(await colour(3, 3)), "the slug of the hexagon has dropped");
+      assert.ok(isSteel(await colour(30, 0)) && isSteel(await colour(20, -17)));
+      await at(1);
+      assert.ok(isSteel(await colour(30, 0)), "the part stays");
+      assert.ok(!isSteel(await colour(20, -17)), "the rest falls back");
+      await at(0.05);
+      assert.ok(isSteel(await colour(3, 3)), "and whole again");
+      await page.locator("details.menu summary").nth(1).click();
+      await page.click("#copy-picture");
+      await says(page, "#message span", "Copied.");
+      assert.deepEqual(await page.evaluate(async () => (await navigator.clipboard.read())[0]?.types), ["image/png"]);
+      await page.locator("details.menu summary").nth(2).click();
+      await page.uncheck("#plate");
+      await drawn(page);
+      assert.equal((await colour(30, 0))[3], 0);
+      await page.check("#plate");
+      if (reducedMotion === "no-preference") {
+        const longest = await longestTask(page, async () => {
+          await page.click("#play");
+          await page.waitForTimeout(1500);
+        });
+        t.diagnostic(`the plate while the wire goes: longest task ${longest.toFixed(1)} ms of the thread's own time`);
+        assert.ok(longest > 0.2 && longest < 33, `${longest} ms`);
+      }
+      // (this test looks at the canvas more often than the page does)
+      assert.deepEqual(
+        said.filter((text) => !text.includes("willReadFrequently")),
+        [],
+      );
+      await context.close();
+    }
+  });
+
+  test("a film of the wire; sounds, when they are asked for", async () => {
+    const { page, context, said } = await visit({}, "", (context) =>
+      context.addInitScript(() => {
+        const heard = { strokes: 0, sparks: 0 };
+        Object.assign(window, { heard });
+        const { start, stop } = AudioBufferSourceNode.prototype;
+        AudioBufferSourceNode.prototype.start = function (...when) {
+          if (this.loop) heard.sparks++;
+          else heard.strokes++;
+          start.apply(this, when);
+        };
+        AudioBufferSourceNode.prototype.stop = function (...when) {
+          if (this.loop) heard.sparks--;
+          stop.apply(this, when as [number]);
+        };
+      }),
+    );
+    const heard = () => page.evaluate(() => (window as unknown as { heard: { strokes: number; sparks: number } }).heard);
+    await says(page, "#walked", /^block/);
+    await page.click("#play");
+    await says(page, "#play", "Play");
+    assert.deepEqual(await heard(), { strokes: 0, sparks: 0 });
+    await page.locator("details.menu summary").nth(1).click();
+    const [download] = await Promise.all([page.waitForEvent("download"), page.click("#film")]);
+    assert.equal(download.suggestedFilename(), "wrench.webm");
+    const film = readFileSync(await download.path());
+    assert.equal(film.subarray(0, 4).toString("hex"), "1a45dfa3");
+    assert.ok(film.length > 20_000, `${film.length} bytes`);
+    await says(page, "#walked", /^block 29/);
+    await page.locator("details.menu summary").nth(2).click();
+    await page.check("#sound");
+    await page.selectOption("#speed", "real");
+    await page.keyboard.press("Escape");
+    await page.click("#terminal");
+    await page.keyboard.type("P");
+    await page.waitForFunction(() => (window as unknown as { heard: { strokes: number } }).heard.strokes > 0);
+    await page.click("#play");
+    assert.equal((await heard()).sparks, 1);
+    await page.click("#play");
+    assert.equal((await heard()).sparks, 0);
+    assert.deepEqual(said, []);
+    await context.close();
   });
 
   test("a card for each part: title and picture; who follows it comes to the part", async () => {
