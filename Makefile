@@ -6,7 +6,8 @@ endif
 define HELP
   make            the emulator, build/skg80: needs gcc alone
   make run        cuts an example before your eyes (PART=examples/wrench.skg)
-  make test       everything and make lint; make t T=tests/rom/test_build.py: one test
+  make test       what changes may have touched, at first everything, and make lint; make test-all: everything
+  make t          one test: T=tests/rom/test_build.py
   make venv       .venv with skg and all that the tests need
   make rom        roms/ from asm/: needs Python, and z88dk-z80asm on the PATH or the network for asm80
   make emu        the emulator and its library for the tools
@@ -89,8 +90,11 @@ run: rom-age
 # (without it each process of the tests would compile all of them anew, and pytest's plugins: seconds)
 unexport PYTHONDONTWRITEBYTECODE
 
-test: venv asm80 emu tools web-modules
-	$(PY) -m pytest -q -n 3 --dist loadgroup tests
+# What passed before, and reads nothing that has changed since (tests/kept.py), is left out; test-all runs all.
+test: TEST_OPTIONS = --kept
+test-all: TEST_OPTIONS = --keys
+test test-all: venv asm80 emu tools web-modules
+	$(PY) -m pytest -q -n 2 --dist loadgroup $(TEST_OPTIONS) tests
 	@$(MAKE) -s lint
 
 # One test, or some: T=tests/rom/test_build.py, T="-k wrench".
@@ -138,4 +142,4 @@ build/board/bin/python:
 clean:
 	rm -rf build
 
-.PHONY: all help rom-age venv run test t format lint docs bench bench-rom board clean
+.PHONY: all help rom-age venv run test test-all t format lint docs bench bench-rom board clean

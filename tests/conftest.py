@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import fcntl
+import gc
 import os
 import subprocess
 import sys
@@ -10,25 +11,44 @@ from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
 
+import kept
 import pytest
 from hypothesis import HealthCheck, settings
 
 # A machine that stands still for some seconds says nothing about what is tested. The same sources are tried on the
 # same examples, so that a failure is the change's; `make hunt` throws others.
-settings.register_profile("same", deadline=None, suppress_health_check=[HealthCheck.too_slow], derandomize=True)
-settings.register_profile("hunt", settings.get_profile("same"), derandomize=False)
+settings.register_profile(
+    "same", max_examples=50, deadline=None, suppress_health_check=[HealthCheck.too_slow], derandomize=True
+)
+settings.register_profile("hunt", settings.get_profile("same"), max_examples=500, derandomize=False)
 settings.load_profile("same")
 
 ROOT = Path(__file__).resolve().parents[1]
 
-# (see skg.cli)
+# (as the command line does)
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 # The messages are those of the English catalogue, whatever this machine speaks.
 os.environ["LC_ALL"] = "C.UTF-8"
 
+# Thousands of tests are alive to the end: to look through them for garbage each time takes a tenth of all.
+gc.set_threshold(100_000)
+
 # Node, where it came out of a Python package (make).
 os.environ["PATH"] += os.pathsep + str(Path(sys.executable).parent)
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--kept", action="store_true", help="leave out what passed before, all that it reads as it is now")
+    parser.addoption("--keys", action="store_true", help="no test opens what is not in its key (tests/kept.py)")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    # (who says SKG_SEED or another ROM wants other tests)
+    if config.getoption("--kept") and not any(name.startswith("SKG_") for name in os.environ):
+        config.pluginmanager.register(kept.Plugin(config, ROOT))
+    if config.getoption("--keys"):
+        config.pluginmanager.register(kept.Watch(ROOT))
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

@@ -1,4 +1,4 @@
-# Small-integer soup, firmware against reference, beyond the 4,000 programs of the tests: SEED another one each time.
+# Small-integer soup, firmware against reference, beyond the programs of the tests: SEED another one each time.
 PROGRAMS ?= 1000000
 SEED     ?= $(shell date +%s)
 
@@ -8,6 +8,8 @@ hunt: venv asm80 emu tools
 	SKG_SEED=$(SEED) SKG_BLOCKS=$$(($(PROGRAMS) / 10)) $(PY) -m pytest -q -n 2 tests/rom/test_random.py tests/rom/test_fit.py tests/rom/test_mill.py
 	SKG_EVERY=1 $(PY) -m pytest -q -n 2 tests/rom/test_altair.py tests/rom/test_processors.py tests/rom/test_mill.py
 	SKG_SEED=$(SEED) SKG_SESSIONS=$$(($(PROGRAMS) / 10)) $(PY) -m pytest -q -n 2 tests/rom/test_sessions.py
+	SKG_EVERY=1 $(PY) -m pytest -q -n 2 tests/tools/test_cut.py tests/tools/test_job.py tests/tools/test_tabs.py
+	SKG_CONTOURS=1000 $(PY) -m pytest -q tests/tools/test_dxf.py -k any_contour
 	SKG_STRIDE=499 SKG_MOMENTS=100000 $(PY) -m pytest -q -n 2 tests/fuzz/test_ctrl_c.py
 	$(PY) tests/rom/hunt.py --seed $(SEED) --programs $(PROGRAMS)
 	$(PY) tests/mill/hunt_grbl.py --seed $(SEED) --programs $$(($(PROGRAMS) / 10))

@@ -1,6 +1,6 @@
 """Narrow parts (narrow.py): what the wire does not fit is error 6 or 7, never a wrong tape; what fits is cut.
 
-10,000 programs; another seed: SKG_SEED=text, more of them: SKG_NARROW=number.
+3,200 programs; another seed: SKG_SEED=text, more of them: SKG_NARROW=number (`make hunt`: 100,000).
 Of the parts that the ROM refuses, so many are tried again without its rule: SKG_LOOSE=1 tries all. One that is right
 then must be refused by the reference, too.
 """
@@ -22,8 +22,8 @@ from skg.machine import symbols
 from skg.ref import run as reference
 
 SEED = os.environ.get("SKG_SEED", "narrow")
-SHARES = range(8)
-PARTS_A_SHARE = int(os.environ.get("SKG_NARROW", "10000")) // len(SHARES)
+SHARES = range(4)
+PARTS_A_SHARE = int(os.environ.get("SKG_NARROW", "3200")) // len(SHARES)
 #: Of the parts that are refused, each so-many-th runs on the ROM without the rule, too (no translation of it is there).
 LOOSE = int(os.environ.get("SKG_LOOSE", "4"))
 #: Verdicts on tapes that no corner shows to be wrong.

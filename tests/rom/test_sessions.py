@@ -1,6 +1,6 @@
 """Typed sessions (sessions.py), firmware against model: what a session keeps behind errors, edits, GOTO and RUN.
 
-1,600 sessions; another seed: SKG_SEED=text, more of them: SKG_SESSIONS=number.
+800 sessions; another seed: SKG_SEED=text, more of them: SKG_SESSIONS=number.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ SEED = os.environ.get("SKG_SEED", "sessions")
 
 #: The work is cut into shares, so that several test processes can take them.
 SHARES = range(2)
-SESSIONS_A_SHARE = int(os.environ.get("SKG_SESSIONS", "1600")) // len(SHARES)
+SESSIONS_A_SHARE = int(os.environ.get("SKG_SESSIONS", "800")) // len(SHARES)
 
 
 @pytest.mark.parametrize("share", SHARES)

@@ -60,7 +60,7 @@ EXACT = 0.23
 
 SEED = int(os.environ.get("SKG_SEED", "1983"))
 #: Random contours; SKG_CONTOURS gives more of them.
-CONTOURS = int(os.environ.get("SKG_CONTOURS", "40"))
+CONTOURS = int(os.environ.get("SKG_CONTOURS", "16"))
 
 
 def collect(drawing: Drawing, layers: tuple[str, ...] = (), **wishes: float) -> Content:
@@ -328,7 +328,7 @@ STOPS_EARLY = [
 
 @given(st.lists(blocks(), min_size=1, max_size=8))
 @example(STOPS_EARLY)
-@settings(max_examples=40)
+@settings(max_examples=15)
 def test_any_tape_draws(items: list[Block]) -> None:
     """Every block's ends and middle lie on the drawing that is made of it."""
     tape = tapes.parse(tapes.to_bytes(items))

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import shapely
 from shapely.geometry import LineString, Point, Polygon
-from toolhelp import least_time
+from toolhelp import in_time
 
 from skg.geometry.areas import lines_of
 from skg.geometry.arrays import headings
@@ -233,13 +233,10 @@ def test_nearest_of_its_own_among_many_others() -> None:
     path = Pieces((Piece(p, q), at) for at, ring in enumerate(corners) for p, q in pairwise(ring))
     places = np.random.default_rng(1).uniform(-1, 1, (400, 2)) + rings[210]
     owners = np.where(np.arange(400) % 3, 210, 211)
-    seconds = []
-    for way in (path.nearest_own, lambda *given: path.nearest(*given).own_at):
-        seconds.append(least_time(partial(way, places, owners, 2.2)))
-    (own, quick), (at, slow) = seconds
+    ways = path.nearest_own, lambda *given: path.nearest(*given).own_at
+    own, at = in_time(0.5, *(partial(way, places, owners, 2.2) for way in ways))
     assert (own >= 0).all() and (path.owner[own] == owners).all()
     assert path.from_place(places, own) == pytest.approx(path.from_place(places, at), abs=1e-12)
-    assert quick < slow / 2
     # (where they are those of half of the path and more, all of it is looked at; far away there are none)
     most = np.arange(400) % 400
     near = path.nearest(places, most, 0.3)

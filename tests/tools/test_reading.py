@@ -18,7 +18,7 @@ from ezdxf.document import Drawing
 from facthelp import CARE, counts_say, each_says, pattern, says
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from toolhelp import Run, least_time
+from toolhelp import Run, in_time
 
 from skg.errors import UserError
 from skg.geometry.contour import Contour
@@ -638,14 +638,13 @@ def test_far_away(place: float) -> None:
 def test_many_that_touch() -> None:
     """2,500 squares side by side: not each pair is told, and they take no more time, each, than 625."""
 
-    def squares(count: int) -> tuple[Reading, float]:
+    def squares(count: int) -> Reading:
         corners = [(x, y) for x in range(count) for y in range(count)]
         data = raw(*(polygon((x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)) for x, y in corners))
-        return least_time(lambda: checked(data))
+        return checked(data)
 
-    _, few = squares(25)
-    reading, many = squares(50)
-    assert many < 10 * few  # (each with each would be 16)
+    # (each with each would be 16)
+    reading, _ = in_time(10, lambda: squares(50), lambda: squares(25))
     assert len(reading.contours) == 2500
     assert len(reading.report.overlaps) == 300
     # each of 50 by 50 squares meets its neighbours at 2·50·49 sides and 2·49·49 corners
@@ -840,17 +839,15 @@ def test_ellipses_that_are_whole(last: float) -> None:
 def test_a_digitised_curve_is_quick() -> None:
     """1,500 control points: no more nodes than the curve needs, and no more time for a point than with 375."""
 
-    def digitised(count: int) -> tuple[Contour, float]:
+    def digitised(count: int) -> Contour:
         controls = [(100 * cos(t / 300), 70 * sin(t / 300) + 5 * sin(t / 60)) for t in range(count)]
         knots = [0] * 4 + list(range(1, len(controls) - 3)) + [len(controls) - 3] * 4
         data = raw(spline(controls, knots))
-        reading, seconds = least_time(lambda: checked(data))
-        (contour,) = reading.contours
-        return contour, seconds
+        (contour,) = checked(data).contours
+        return contour
 
-    _, few = digitised(375)
-    contour, many = digitised(1500)
-    assert many < 10 * few  # (all of them anew for each would be 16)
+    # (all of them anew for each would be 16)
+    contour, _ = in_time(10, lambda: digitised(1500), lambda: digitised(375))
     assert sum(len(edge.nodes) for edge in contour.edges) < 400
 
 

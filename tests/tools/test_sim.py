@@ -16,7 +16,7 @@ from facthelp import pattern, says
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from oneblock import run_block, trace_block
-from toolhelp import ROOT, Run, least_time
+from toolhelp import ROOT, Run, timed
 
 from skg import tape as tapes
 from skg.errors import UserError
@@ -259,6 +259,6 @@ def test_progress_on_a_terminal_only(run_program: Run, tmp_path: Path) -> None:
 
 def test_speed() -> None:
     block = Block(30_000_000, 40_000_000, 80_000_000, "X", "NR1")
-    ended, seconds = least_time(lambda: run_block(block))
+    ended, seconds = timed(lambda: run_block(block))
     rate = ended.steps / seconds
     assert rate > 20e6, f"{rate / 1e6:.0f} million steps a second"

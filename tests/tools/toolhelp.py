@@ -14,7 +14,7 @@ ROOT = Path(__file__).parents[2]
 #: Seconds; only what hangs takes so long, on a busy machine too.
 PATIENCE = 600
 
-T = TypeVar("T")
+T, U = TypeVar("T"), TypeVar("U")
 
 #: The fixture `run`: call it with the command line's arguments.
 Run = Callable[..., Result]
@@ -26,17 +26,27 @@ CAD_TAPE = (
 )
 
 
-def least_time(work: Callable[[], T], times: int = 3) -> tuple[T, float]:
-    """The result of some work, and its time in processor seconds: the least of some runs, without the garbage
-    collector, which would go through the objects of earlier tests."""
-    least = float("inf")
-    for _ in range(times):
-        gc.collect()
-        gc.disable()
-        try:
-            began = process_time()
-            result = work()
-            least = min(least, process_time() - began)
-        finally:
-            gc.enable()
-    return result, least
+def timed(work: Callable[[], T]) -> tuple[T, float]:
+    """The result of some work, and its time in processor seconds, without the garbage collector, which would go through
+    the objects of earlier tests."""
+    gc.collect()
+    gc.disable()
+    try:
+        began = process_time()
+        result = work()
+        return result, process_time() - began
+    finally:
+        gc.enable()
+
+
+def in_time(times: float, long: Callable[[], T], short: Callable[[], U]) -> tuple[T, U]:
+    """The results of two works, of which the first must take less than so many times the other's time. What else the
+    machine does may disturb one of them: then both are done again, twice at most, and the least of each counts."""
+    least = [float("inf")] * 2
+    for _ in range(3):
+        # (the short one first: what is loaded at first use counts for it)
+        (two, second), (one, first) = timed(short), timed(long)
+        least = [min(least[0], first), min(least[1], second)]
+        if least[0] < times * least[1]:
+            return one, two
+    raise AssertionError(f"{least[0]:.3f} s is not less than {times} times {least[1]:.3f} s")
