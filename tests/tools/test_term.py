@@ -444,6 +444,7 @@ def test_broken_off(machine: Machine, tmp_path: Path) -> None:
     [
         (["/nowhere"], ["skg: /nowhere: ", "no such file or directory"]),
         (["nonsense://x"], ["skg: nonsense://x: ", "URL"]),
+        (["loop://"], ["skg: loop://: "]),
         (["/dev/null"], ["skg: /dev/null: ", "serial port"]),
         (["/dev/null", "--punch-port", "/dev/../dev/null"], ["skg: /dev/../dev/null: ", "teletype", "--punch-port"]),
         (["/dev/null", "--send", "/nowhere.skg"], ["skg: /nowhere.skg: ", "No such file or directory"]),

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import re
 import sys
 import tempfile
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from io import TextIOWrapper
+from io import BytesIO, TextIOWrapper
 from pathlib import Path
 from stat import S_IMODE, S_ISREG
 from typing import BinaryIO, TextIO
@@ -18,6 +20,13 @@ from skg.file_type import named
 from skg.messages.finding import Finding
 from skg.signs import decoded, shown
 
+try:
+    import fcntl
+except ImportError:
+    fcntl = None
+
+#: The end of the name of a file that is being written; seconds after which it may be what a killed run has left.
+_LEFT, _REST = ".part", 60.0
 #: Control characters that stop the board.
 _STOPS = {"\x03": "ctrl-c", "\x13": "ctrl-s"}
 #: These, and characters that the board has no sign for.
@@ -69,33 +78,112 @@ def in_ascii(data: bytes) -> str:
     return text if text.isascii() else text.encode("ascii", "replace").decode("ascii")
 
 
+def is_same_file(one: str, other: str) -> bool:
+    """Tell whether two names are of one file, there or to be written: by links of either kind, and in other letters
+    where the system takes no heed of case."""
+    if "-" in (one, other):
+        return False
+    with suppress(OSError):
+        return Path(one).samefile(other)
+    first, second = (Path(os.path.realpath(name)) for name in (one, other))
+    if sys.platform in ("win32", "darwin"):
+        return str(first).casefold() == str(second).casefold()
+    return first == second
+
+
 @contextmanager
 def _new_file(path: str) -> Iterator[BinaryIO]:
-    """A file to write: it takes the place of an older one when all of it is written, and not before.
+    """A file to write: it takes the place of an older one when all of it is written and on the disk, and not before.
 
-    What is no plain file, has several names or lies in a folder that takes no new one is written where it is.
+    What is no plain file is written as it goes; a file that has several names, or lies in a folder that takes no new
+    one, where it is, all at once.
     """
     target = Path(os.path.realpath(path))
-    try:
-        with suppress(FileNotFoundError):
-            old = target.stat()
-            if not S_ISREG(old.st_mode) or old.st_nlink > 1 or not os.access(target, os.W_OK):
-                raise PermissionError
-        descriptor, name = tempfile.mkstemp(dir=target.parent, prefix=".skg-")
-    except OSError:
-        with _named(path), Path(path).open("wb") as stream:
-            yield stream
+    with _named(path):
+        old = target.stat() if target.exists() else None
+        if old and not S_ISREG(old.st_mode):
+            with target.open("wb") as stream:
+                yield stream
+            return
+        made = None if old and (old.st_nlink > 1 or not os.access(target, os.W_OK)) else _beside(target.parent)
+    if made is None:
+        text = BytesIO()
+        yield text
+        with _named(path):
+            _write_in_place(target, text.getvalue())
         return
+    descriptor, name = made
     try:
-        with _named(path), os.fdopen(descriptor, "wb") as stream:
-            yield stream
-            stream.flush()
-            # (of the open file there is none on Windows)
-            Path(name).chmod(S_IMODE(target.stat().st_mode) if target.exists() else 0o666 & ~_umask())
-        Path(name).replace(target)
+        with _named(path):
+            with os.fdopen(descriptor, "wb") as stream:
+                yield stream
+                stream.flush()
+                os.fsync(descriptor)
+                # (of the open file there is none on Windows)
+                Path(name).chmod(S_IMODE(old.st_mode) if old else 0o666 & ~_umask())
+            Path(name).replace(target)
     except BaseException:
-        Path(name).unlink()
+        Path(name).unlink(missing_ok=True)
         raise
+
+
+def _beside(folder: Path) -> tuple[int, str] | None:
+    """A file to write, with its name; None in a folder that takes no new one. Those that killed runs have left go."""
+    try:
+        descriptor, name = tempfile.mkstemp(_LEFT, ".skg-", folder)
+    except PermissionError:
+        return None
+    except OSError as error:
+        if error.errno == errno.EROFS:
+            return None
+        raise
+    _hold(descriptor)
+    for left in folder.glob(f".skg-????????{_LEFT}"):
+        # (on Windows a file that is open stays)
+        with suppress(OSError):
+            if left.name != Path(name).name and time.time() - left.stat().st_mtime > _REST and not _is_held(left):
+                left.unlink()
+    return descriptor, name
+
+
+def _hold(descriptor: int) -> bool:
+    """Tell whether a file is this process's alone, and keep it so until it is closed."""
+    if fcntl:
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            # (a file system without locks tells nothing)
+            return False
+    return True
+
+
+def _is_held(path: Path) -> bool:
+    with path.open("rb") as stream:
+        return not _hold(stream.fileno())
+
+
+def _write_in_place(target: Path, data: bytes) -> None:
+    """Write a file that no other may take the place of; where the disk is full it is as it was."""
+    if not target.exists():
+        target.write_bytes(data)
+        return
+    with target.open("r+b") as stream:
+        old = stream.read()
+        try:
+            _put(stream, data)
+        except OSError:
+            # (there is room for it: nothing of it was given back)
+            with suppress(OSError):
+                _put(stream, old)
+            raise
+
+
+def _put(stream: BinaryIO, data: bytes) -> None:
+    stream.seek(0)
+    stream.write(data)
+    stream.flush()
+    stream.truncate(len(data))
+    os.fsync(stream.fileno())
 
 
 @contextmanager

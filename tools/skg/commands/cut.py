@@ -24,6 +24,7 @@ from skg.commands.options import (
     offset_option,
     output_option,
     picture_format,
+    refuse_onto,
     unmarked,
 )
 from skg.errors import UserError
@@ -294,7 +295,7 @@ def _cut(
 
     if is_job_file(file):
         job, path = _loaded(file, context)
-        _refuse_onto_drawing(path, (output, program, sheet, save_job))
+        refuse_onto([name for name in (output, program, sheet, save_job) if name], [path])
     else:
         job, path = _asked(file, **options), file
     if list_layers:
@@ -366,12 +367,6 @@ def _loaded(file: str, context: click.Context) -> tuple[Job, str]:
     if not path.is_file():
         raise UserError(Finding("drawing-not-there", drawing=job.drawing).within(file))
     return job, str(path)
-
-
-def _refuse_onto_drawing(path: str, written: tuple[str | None, ...]) -> None:
-    for name in filter(None, written):
-        if name != "-" and realpath(name) == realpath(path):
-            raise UserError(Finding("read-and-written").within(name))
 
 
 def _refuse_elsewhere(save_job: str, path: str) -> None:

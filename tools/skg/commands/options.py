@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import wraps
 from importlib.util import find_spec
-from os.path import realpath
 from pathlib import Path
 
 import click
 
 from skg.errors import UserError
+from skg.files import is_same_file
 from skg.job.values import LEAST_FEED, MOST_OFFSET
 from skg.messages.finding import Finding, Phrase
 from skg.tape.block import MAX_DIGITS, Tape
@@ -18,6 +18,8 @@ from skg.tape.dialect import GcodeDialect
 from skg.tape.positions import POSITIONS, WITHOUT_DRIFT, decide, depends
 from skg.terminal import remark
 
+#: The key of a command's context under which are the files that it reads beside its arguments.
+_READ = "skg.read"
 #: Formats of pictures, by the ending of a file's name.
 FORMATS = ("svg", "png", "pdf")
 
@@ -79,16 +81,18 @@ def output_option(text: str, required: bool = False, in_place: bool = False) -> 
     default = {"required": True} if required else {"default": "-", "show_default": True}
     option = click.option("-o", "--output", metavar="FILE", type=click.Path(allow_dash=True), help=text, **default)
 
-    def give(function: Callable) -> Callable:
-        @wraps(function)
-        def careful(*arguments: object, **named: object) -> object:
-            if not in_place:
-                _refuse_onto(click.get_current_context())
-            return function(*arguments, **named)
+    return lambda function: option(function if in_place else spares_what_it_reads(function))
 
-        return option(careful)
 
-    return give
+def spares_what_it_reads(function: Callable) -> Callable:
+    """Make a command refuse to write onto the files that it reads."""
+
+    @wraps(function)
+    def careful(*arguments: object, **named: object) -> object:
+        _refuse_onto(click.get_current_context())
+        return function(*arguments, **named)
+
+    return careful
 
 
 def _refuse_onto(context: click.Context) -> None:
@@ -98,13 +102,19 @@ def _refuse_onto(context: click.Context) -> None:
         if isinstance(parameter.type, click.Path) and (value := context.params[parameter.name]) is not None:
             if value == "":
                 raise UserError(Finding("empty-file-name").within(parameter.human_readable_name))
-            is_read = isinstance(parameter, click.Argument) or parameter.name == "answers"
+            is_read = isinstance(parameter, click.Argument) or parameter.name in ("answers", "file")
             (read if is_read else written).extend(map(str, value if isinstance(value, tuple) else [value]))
+    read.extend(context.meta.get(_READ, []))
     if written.count("-") > 1:
         raise UserError(Finding("two-on-stdout").within("-"))
-    real = [name for name in written if name != "-" and (not Path(name).exists() or Path(name).is_file())]
+    refuse_onto(written, read)
+
+
+def refuse_onto(written: Sequence[str], read: Sequence[str]) -> None:
+    """Raise a `UserError` when one of the files to be written is also read, or written twice."""
+    real = [name for name in written if not Path(name).exists() or Path(name).is_file()]
     for index, name in enumerate(real):
-        if any(realpath(name) == realpath(other) for other in [*read, *real[:index]] if other != "-"):
+        if any(is_same_file(name, other) for other in [*read, *real[:index]]):
             raise UserError(Finding("written-twice").within(name))
 
 
@@ -117,6 +127,8 @@ class MachineName(click.ParamType):
         """Return its dialect."""
         from skg.dialects.file import dialect_of
 
+        if ctx and Path(str(value)).is_file():
+            ctx.meta.setdefault(_READ, []).append(str(value))
         return value if isinstance(value, GcodeDialect) else dialect_of(str(value))
 
 

@@ -8,7 +8,13 @@ from itertools import chain
 
 import click
 
-from skg.commands.options import decided, feed_option, positions_option, read_machine_option
+from skg.commands.options import (
+    decided,
+    feed_option,
+    positions_option,
+    read_machine_option,
+    spares_what_it_reads,
+)
 from skg.errors import UserError
 from skg.files import write_bytes
 from skg.geometry.plane import XY
@@ -105,6 +111,7 @@ def _xy(point: XY) -> str:
     "-: the standard output, without the report.",
 )
 @click.option("--strict-close", is_flag=True, help="Exit with 1 when a path does not close to 0 µm.")
+@spares_what_it_reads
 def command(
     tapes_: tuple[str, ...],
     feed: float,

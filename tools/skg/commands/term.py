@@ -6,12 +6,11 @@ import contextlib
 import os
 import sys
 import threading
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from skg.commands.options import Seconds
+from skg.commands.options import Seconds, spares_what_it_reads
 from skg.errors import UserError
 from skg.files import read_bytes
 from skg.messages.finding import Finding, Phrase
@@ -77,6 +76,7 @@ BOARD_BAUD = {"rc2014": 115200, "rc2014-sio": 115200, "minimax8085": 19200, "rcb
     type=Seconds(0),
     help="Give up a port that stays away this long, 0: never. Default: 60 with --batch or without a terminal, else 0.",
 )
+@spares_what_it_reads
 def command(
     port: str,
     file: str | None,
@@ -96,14 +96,16 @@ def command(
     """Be the teletype of the board on PORT (a device, or any address that pyserial knows).
 
     Keys go to the board as they are typed; ctrl-] leaves. What it punches, between DC2 and DC4 or on a port
-    of its own, goes to the file of --record. XOFF holds what is sent until XON. A port that goes away is
-    opened again when it comes back. Without a terminal the standard input is typed instead, and the command
-    leaves as with --batch.
+    of its own, goes to the file of --record: FILE.part, until all of the tape is there. XOFF holds what is sent
+    until XON. A port that goes away is opened again when it comes back. Without a terminal the standard input is
+    typed instead, and the command leaves as with --batch.
 
     The first ERR ends what is sent: then the keyboard is yours, or the exit code is 1.
     """
     from skg.machine.keyboard import raw_keyboard
+    from skg.machine.recorder import Recorder
     from skg.machine.sending import Stopped, TypedLine, Typist, finish, lines_to_type, make_tape, send
+    from skg.machine.signals import closing_on_signals
     from skg.machine.teletype import BrokenOff, Port, Teletype, converse
 
     if unnumbered and not (file and run):
@@ -117,48 +119,49 @@ def command(
     lines = lines_to_type(read_bytes(file), file) if file else []
     keyboard = str(Phrase("stdin"))
     keyed = [] if is_attended or batch or file == "-" or not sys.stdin else lines_to_type(read_bytes("-"), keyboard)
-    with contextlib.ExitStack() as stack:
-        teletype = Teletype(show_bars=sys.stderr.isatty())
-        machine = Port(port, baud, teletype.say, teletype.is_back, patience)
-        readers = [(machine, False)]
-        if punch_port:
-            readers.append((Port(punch_port, baud, teletype.say, teletype.punch_is_back, patience), True))
-        if record:
-            teletype.record = stack.enter_context(Path(record).open("wb", buffering=0))
-        for reader in readers:
-            _listen(teletype, *reader, stack)
-        teletype.keys = stack.enter_context(raw_keyboard())
-        typist = Typist(machine, teletype, silence, pace == "prompt", delay)
-        stopped = False
-        try:
+    with closing_on_signals(), Recorder(record) if record else contextlib.nullcontext() as recorder:
+        with contextlib.ExitStack() as stack:
+            teletype = Teletype(recorder, show_bars=sys.stderr.isatty())
+            machine = Port(port, baud, teletype.say, teletype.is_back, patience)
+            readers = [(machine, False)]
+            if punch_port:
+                readers.append((Port(punch_port, baud, teletype.say, teletype.punch_is_back, patience), True))
+            for reader in readers:
+                _listen(teletype, *reader, stack)
+            teletype.keys = stack.enter_context(raw_keyboard())
+            typist = Typist(machine, teletype, silence, pace == "prompt", delay)
+            stopped = False
             try:
-                if run and file:
-                    make_tape(typist, lines, file, unnumbered, is_attended)
-                elif run:
-                    lines = [TypedLine(0, "RUN")]
-                if lines and not (run and file):
-                    send(typist, lines, file or port)
-                if keyed:
-                    send(typist, keyed, keyboard)
-                if not is_attended:
-                    is_followed = typist.paced and bool(lines or keyed)
-                    is_known = is_followed and not (record and (run or punch_port))
-                    ports = [port for port, _ in readers]
-                    finish(typist, ports, 0.0 if is_known else quiet, bool(record and run), is_followed)
-            except Stopped as reason:
-                stopped = True
-                why = reason.why
-                if lines or keyed:
-                    why = Finding("stopped-sending", why=why).within(*why.source)
-                teletype.say(why)
-            if is_attended:
-                converse(machine, teletype)
-        except BrokenOff:
-            teletype.say(Finding("broken-off"))
-            stack.close()
-            raise SystemExit(1) from None
-    _tell_punched(teletype, record, run)
-    if stopped and not is_attended:
+                try:
+                    if run and file:
+                        make_tape(typist, lines, file, unnumbered, is_attended)
+                    elif run:
+                        lines = [TypedLine(0, "RUN")]
+                    if lines and not (run and file):
+                        send(typist, lines, file or port)
+                    if keyed:
+                        send(typist, keyed, keyboard)
+                    if not is_attended:
+                        is_followed = typist.paced and bool(lines or keyed)
+                        is_known = is_followed and not (record and (run or punch_port))
+                        ports = [port for port, _ in readers]
+                        finish(typist, ports, 0.0 if is_known else quiet, bool(record and run), is_followed)
+                except Stopped as reason:
+                    stopped = not is_attended
+                    why = reason.why
+                    if lines or keyed:
+                        why = Finding("stopped-sending", why=why).within(*why.source)
+                    teletype.say(why)
+                if is_attended:
+                    converse(machine, teletype)
+            except BrokenOff:
+                teletype.say(Finding("broken-off"))
+                raise SystemExit(1) from None
+        is_whole = teletype.ended or not run
+        if recorder:
+            is_whole = recorder.finish(teletype.listing, stopped or teletype.torn)
+        _tell_punched(teletype, record if is_whole else None, run)
+    if stopped or teletype.punched and not is_whole:
         raise SystemExit(1)
 
 

@@ -16,7 +16,6 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from io import RawIOBase
 
 import serial
 from tqdm import tqdm
@@ -24,6 +23,7 @@ from tqdm import tqdm
 from skg.errors import UserError, of_system
 from skg.machine.board import ErrorLine, find_error
 from skg.machine.keyboard import ESCAPE, TERMINAL_TROUBLE
+from skg.machine.recorder import Listing, Recorder
 from skg.messages.finding import Finding, Phrase
 from skg.messages.render import line as line_of
 from skg.signs import Keys
@@ -84,13 +84,18 @@ class Port:
         self.say = say
         self.on_back = on_back
         self.patience = patience
-        self.settings = {"baudrate": baud, "timeout": 0.1, "write_timeout": 1}
+        # (another program on the port would take bytes of the tape)
+        self.settings = {"baudrate": baud, "timeout": 0.1, "write_timeout": 1, "exclusive": True}
         self.closing = False
         self.is_away = False
         self.lock = threading.Lock()
+        if name.startswith("loop:"):
+            raise UserError(Finding("loop-port").within(name))
         try:
             self.serial = self._open()
         except _TROUBLE as error:
+            if _is_in_use(error):
+                raise UserError(Finding("port-in-use").within(name)) from None
             raise UserError(Finding("system", detail=_reason(error)).within(name)) from None
 
     def _open(self) -> serial.SerialBase:
@@ -149,6 +154,14 @@ class Port:
             self.serial.close()
 
 
+def _is_in_use(error: Exception) -> bool:
+    """Tell whether another program has a port: as it is locked on POSIX systems, as Windows has it."""
+    causes = (error, error.__context__)
+    if sys.platform == "win32":
+        return any(isinstance(cause, PermissionError) for cause in causes)
+    return any(isinstance(cause, OSError) and cause.errno in (errno.EAGAIN, errno.EBUSY) for cause in causes)
+
+
 def _reason(error: Exception) -> str | Phrase:
     """An error's own words, without the wrapping that pyserial puts around them."""
     cause = error.__context__
@@ -173,7 +186,7 @@ class Teletype:
     punch did.
     """
 
-    record: RawIOBase | None = None
+    record: Recorder | None = None
     keys: Callable[[], bytes] = bytes
     splitter: Splitter = field(default_factory=Splitter)
     last: float = field(default_factory=time.monotonic)
@@ -190,6 +203,9 @@ class Teletype:
     punching: tqdm | None = None
     show_bars: bool = False
     tail: bytes = b""
+    #: What the paper lists of the tape; whether a port went away in the middle of it.
+    listing: Listing = field(default_factory=Listing)
+    torn: bool = False
 
     def say(self, finding: Finding) -> None:
         """A line from `skg term` itself, on stderr."""
@@ -208,6 +224,7 @@ class Teletype:
                 self.line.append(byte)
             elif self.line:
                 self.shown = find_error([self.line.decode()])
+                self.listing.take(bytes(self.line))
                 self.line.clear()
         self.received += len(data)
         self.news.set()
@@ -230,17 +247,14 @@ class Teletype:
         self.last = time.monotonic()
         self.punched += len(data)
         if self.record:
-            try:
-                self.record.write(data)
-            except OSError as error:
-                raise UserError(of_system(error).within(self.record.name)) from None
+            self.record.write(data)
         if self.show_bars:
             if self.punching is None:
                 self.punching = tqdm(unit="block", desc="punching", leave=False)
             self.punching.update(data.count(b"\n"))
         self.news.set()
         self.tail = (self.tail + data)[-8:].replace(b"\r", b"")
-        if b"DD\n" in self.tail:
+        if b"DD\n" in self.tail or b"M30\n" in self.tail:
             self.ended = True
             if self.punching is not None:
                 self.punching.close()
@@ -259,12 +273,14 @@ class Teletype:
     def is_back(self) -> None:
         """The port went away and is there again."""
         self.losses += 1
+        self.torn |= self.punched > 0 and not self.ended
         self.splitter.may_send.set()
         self.news.set()
 
     def punch_is_back(self) -> None:
         """The same of a port of the punch's own."""
         self.gaps += 1
+        self.torn = True
 
     def check(self) -> None:
         """Raise what went wrong in a reading thread, or `BrokenOff` when the operator wants to stop."""

@@ -10,7 +10,7 @@ from pathlib import Path
 from threading import Condition, Event, Lock, Thread
 
 from skg.errors import UserError, of_system
-from skg.files import read_bytes, write_bytes
+from skg.files import is_same_file, read_bytes, write_bytes
 from skg.job.job import ROMS
 from skg.messages.finding import Finding, Phrase
 from skg.tape.positions import WITHOUT_DRIFT
@@ -430,6 +430,8 @@ class Session:
         if not is_over and (exists := [name for name in files if os.path.lexists(folder / name)]):
             raise Conflict(Finding("already-there", names=tuple(exists)), exists=exists)
         for name in files:
+            if is_same_file(str(folder / name), str(self._path)):
+                raise UserError(Finding("written-twice").within(name))
             if (folder / name).exists() and not (folder / name).is_file():
                 raise UserError(Finding("no-plain-file").within(name))
         written = []
