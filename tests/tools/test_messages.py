@@ -149,7 +149,7 @@ def test_advice_is_in_the_words_of_the_medium(monkeypatch: pytest.MonkeyPatch) -
     job = text(finding, Speech("en", Medium.JOB))
     assert job == 'small = "leave" under [machine] tolerance = 0.35 under [read] tab layers = ["A"] under [read]'
     page = text(finding, Speech("zh", Medium.PAGE))
-    assert page == "“过小轮廓：不切割” “连接间隙：0.35” “暂留量” “图层与轮廓：A”"
+    assert page == "“过小轮廓：不切割” “缺口连接上限：0.35” “暂留量” “图层与轮廓：A”"
     assert list(advice(finding)) == [("small", "leave"), ("tolerance", "0.35"), ("tab", None), ("layer", "A")]
 
 

@@ -22,7 +22,7 @@ const WORDS = {
   open: ["Open…", "打开…"],
   save: ["Save", "保存"],
   saveSkg: ["Program .skg", "程序 .skg"],
-  save3b: ["Tape .3b", "纸带 .3b"],
+  save3b: ["Tape .3b", "3B 代码 .3b"],
   saveIso: ["ISO G-code", "ISO G 代码"],
   saveSvg: ["Picture .svg", "图片 .svg"],
   saveDxf: ["Drawing .dxf", "图纸 .dxf"],
@@ -153,7 +153,7 @@ const WORDS = {
   ],
   noIso: [
     "G-code is not opened here: skg gcode --back makes a tape of {0}.",
-    "此处不能打开 G 代码：请用 skg gcode --back 将 {0} 转成纸带。",
+    "此处不能打开 G 代码：请用 skg gcode --back 将 {0} 转成 3B 代码。",
   ],
   noXy: [
     "{0} is in another language, which the page does not translate: skg xy and skg tekhtran do.",
