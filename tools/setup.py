@@ -148,7 +148,17 @@ class SourceDistribution(sdist):
         shutil.copy(ABOVE / "LICENSE", base_dir)
 
 
+def addresses() -> dict[str, str]:
+    """The project's pages, where $SKG_HOME says where they are."""
+    home = os.environ.get("SKG_HOME", "").rstrip("/")
+    pages = {"Documentation": "docs/shop.md", "Changelog": "CHANGELOG.md"}
+    found = {"Homepage": home, "Issues": f"{home}/issues"}
+    found |= {name: f"{home}/blob/main/{page}" for name, page in pages.items()}
+    return found if home else {}
+
+
 setup(
+    project_urls=addresses(),
     distclass=Native,
     cmdclass={"build": Build, "build_py": BuildPackage, "bdist_wheel": Wheel, "sdist": SourceDistribution},
 )
