@@ -108,7 +108,7 @@ def results(folder: Path, encoding: str = "utf-8") -> dict[str, object]:
 
 def compare_trials(name: str, folder: Path, encoding: str = "utf-8") -> str:
     """Lay what an installed package did beside what the project's own did."""
-    expected, there = results(own_trial()), results(folder, encoding)
+    expected, there = results(own_trial(_LOCALES.get(encoding))), results(folder, encoding)
     if "\u00b5".encode(encoding, "ignore") == b"":
         expected = {key: one.replace("\u00b5", "u") if isinstance(one, str) else one for key, one in expected.items()}
     differ = sorted(key for key in expected.keys() | there.keys() if expected.get(key) != there.get(key))
@@ -119,10 +119,11 @@ def compare_trials(name: str, folder: Path, encoding: str = "utf-8") -> str:
 
 
 @cache
-def own_trial() -> Path:
-    """The folder with the trial of the project's own skg, to which all others are compared."""
-    folder = trial_folder("own")
-    run(ROOT / ".venv" / "bin" / "python", ROOT / "release" / "trial.py", folder)
+def own_trial(speech: str | None) -> Path:
+    """The folder with the trial of the project's own skg in a locale, to which all others are compared."""
+    folder = trial_folder(f"own {speech or ''}".strip())
+    variables = locale(speech) if speech else {}
+    run(ROOT / ".venv" / "bin" / "python", ROOT / "release" / "trial.py", folder, **variables)
     return folder
 
 

@@ -280,7 +280,10 @@ function notices(bundles: BuildResult[]): string {
     const { name, version, license } = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
     const file = readdirSync(folder).find((each) => /^licen[cs]e/i.test(each));
     if (!file) throw new Error(`${name} brings no licence along`);
-    return { row: `  ${name} ${version}: ${license}`, text: `\n${name} ${version}\n\n${readFileSync(join(folder, file), "utf8")}` };
+    return {
+      row: `  ${name} ${version}: ${license}`,
+      text: `\n${name} ${version}\n\n${readFileSync(join(folder, file), "utf8")}`,
+    };
   });
   const rows = parts.map(({ row }) => row).join("\n");
   return `This page holds these works of others, under their licences:\n\n${rows}\n${parts.map(({ text }) => text).join("")}`;
