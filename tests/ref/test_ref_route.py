@@ -203,6 +203,15 @@ def test_fillets_that_cannot_be(statements: list[str], code: int) -> None:
     assert result.error[0] == code
 
 
+def test_a_point_beside_a_cusp() -> None:
+    """At the cusp there is no corner; 0.2 µm beside it the offset curves' crossing is the corner, 0.25 mm away."""
+    route = ["R=-0.1", "FROM (0,-20)", "CUT (0,-5),O:5,{},(4.85,0):-0.15,(4.7,0),(0,0)"]
+    for place, error in (("(5,0)", 6), ("(5,0.0001)", 6), ("(5,0.0002)", None)):
+        result = cut(*[line.format(place) for line in route])
+        assert (result.error and result.error[0]) == error, place
+    assert b"B0B4900B5146GYNR4" in result.tape
+
+
 def test_fillet_after_the_entry_on_a_circle() -> None:
     """The touching point lies 10° before, the corner 10° after (10, 0)."""
     corner = ["CUT O:10,3,-X:1.74,(0,1.74)"]

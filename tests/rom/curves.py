@@ -273,9 +273,52 @@ def flat(rng: Random) -> Statements:
 
 Family = Callable[[Random], Statements]
 
+
+def behind_a_corner(rng: Random) -> Statements:
+    """Nodes close together behind a sharp corner, inner or outer, nearer to it than the wire is thick, or a closed run
+    that is sharp at both its ends; some copied, mirrored or cut again.
+    """
+    x, y = somewhere(rng)
+    lead, wide = rng.uniform(-180, 180), rng.choice([0.1, 0.1, 0.3, 1, rng.uniform(0.05, 4)])
+    away = lead + rng.choice([-1, 1]) * rng.uniform(60, 178)
+    bend, step = rng.uniform(-25, 25) * rng.choice([0.2, 1]), wide * rng.uniform(0.05, 1.5)
+    nodes, way = [((x, y), away)], away
+    for n in range(rng.randint(1, 6)):
+        step *= rng.uniform(0.8, 1.6) if n < 3 else rng.uniform(1, 4)
+        (px, py), way = nodes[-1][0], way + bend / 2
+        nodes.append(
+            ((px + step * math.cos(math.radians(way)), py + step * math.sin(math.radians(way))), way + bend / 2)
+        )
+        way += bend / 2
+    lines = [f"R={rng.choice(['', '-'])}{wide:.3g}"]
+    (ex, ey), _ = nodes[-1]
+    if rng.random() < 0.3:  # round to where it began: a corner at the seam, which BACK closes
+        cx, cy = (x + ex) / 2 + (ey - y) * rng.uniform(0.3, 1), (y + ey) / 2 - (ex - x) * rng.uniform(0.3, 1)
+        return [
+            *lines,
+            *fitted(rng, [*nodes, ((cx, cy), way + 120), ((x, y), way - 120)], ends=0.9),
+            *rng.choice(AGAIN),
+        ]
+    start = x - 20 * math.cos(math.radians(lead)), y - 20 * math.sin(math.radians(lead))
+    lines += [f"CUT {point(*start)}{rng.choice(['', f',{point(x, y)}', f',{point(x, y)},0.05'])}"]
+    lines += fitted(rng, nodes, ends=0.5)
+    far = rng.choice([-1, 1]) * rng.uniform(15, 40)  # to one side of the way from the start to the last node
+    chord = math.hypot(ex - start[0], ey - start[1]) or 1
+    side = point(
+        (start[0] + ex + far * (ey - start[1]) / chord) / 2, (start[1] + ey - far * (ex - start[0]) / chord) / 2
+    )
+    match rng.randrange(6):
+        case 0:
+            return [*lines, f"SYM {point(ex, ey)}:{side}", "BACK"]
+        case 1:
+            return [*lines, f"REP {rng.randint(2, 4)},{rng.choice([90, 120, 30])}:{side}", "BACK"]
+        case _:
+            return [*lines, f"CUT {side}", *rng.choice(AGAIN)]
+
+
 #: The families, the more telling ones twice.
 FAMILIES: list[Family] = [closed, plate, computed, between_circles] * 2 + [wide, open_curve, two_nodes, straight]
-FAMILIES += [copied, mirrored, changing, scaled, degenerate]
+FAMILIES += [copied, mirrored, changing, scaled, degenerate, behind_a_corner]
 
 
 def curve_part(rng: Random, families: list[Family] = FAMILIES) -> str:

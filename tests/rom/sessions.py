@@ -3,22 +3,28 @@
 The model is the reference's interpreter (docs/spec/language.md, sections 3 and 6), kept from line to line: the wire,
 the start hole, whether anything was moved, the open or closed route, variables, the places of DATA and GOSUB, the
 program. Errors end a line and not the session. Sessions are compared line by line: what is punched, what is printed.
+
+Behind a TAB a line has what the operator does while it works: `? 3`, an answer to INPUT (when none is left he breaks
+in); `^C 2`, ctrl-C while the second block is punched, which is finished first.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
 from random import Random
 
 from compare import same_line
 from romhelp import BLOCK, Board
 
 from skg.ref import real
-from skg.ref.fault import Code
+from skg.ref.cutter import Cutter
+from skg.ref.fault import Code, Fault
 from skg.ref.interpreter import Endless, Interpreter
 from skg.ref.near import watching
 from skg.ref.parser import LineFault, parse_line
+from skg.ref.route import Segment
 from skg.ref.statements import Goto
 from skg.ref.tape import Punch
 
@@ -26,19 +32,70 @@ from skg.ref.tape import Punch
 PATIENCE = 200
 #: Cycles that a line may take on the board.
 LIMIT = 200_000_000
+#: Cycles between two looks at the punch: less than a block's numbers take.
+SLICE = 4000
+CTRL_C = 3
 #: Memory enough for what SYM and REP make of a route.
 RAM_KIB = 48
 #: A program's lines.
 NUMBERS = (10, 20, 30, 40, 50)
 
 
+@dataclass
+class Typed:
+    """A line of a session, answers to its INPUTs, and the block (from 1) at which the operator breaks in; 0: none."""
+
+    text: str
+    answers: Iterator[str] = field(default_factory=lambda: iter(()))
+    block: int = 0
+
+    @classmethod
+    def of(cls, line: str) -> Typed:
+        """A session's line."""
+        text, *more = line.split("\t")
+        block = next((int(what[3:]) for what in more if what[0] == "^"), 0)
+        return cls(text, iter([what[2:] for what in more if what[0] == "?"]), block)
+
+
+def blocks(lines: Sequence[str]) -> int:
+    """Blocks among the lines of a tape, stops left out."""
+    return sum(line.startswith("B") for line in lines)
+
+
+@dataclass
+class Tape(Punch):
+    """A tape, and how many blocks are on it when the operator breaks in; 0: he does not."""
+
+    last: int = 0
+
+
+class Breakable(Cutter):
+    """The wire: a break ends the statement behind the block."""
+
+    tape: Tape
+
+    def _emit(self, segment: Segment) -> None:
+        before = len(self.tape.lines)
+        super()._emit(segment)
+        if before < len(self.tape.lines) and blocks(self.tape.lines) == self.tape.last:
+            raise Fault(Code.TAPE)
+
+
 class Model(Interpreter):
-    """A machine at its prompt. Nobody answers its INPUT: the operator breaks in there."""
+    """A machine at its prompt."""
+
+    tape: Tape
+
+    def _new_cutter(self) -> Cutter:
+        return Breakable(self.tape, self.path)
 
     def typed(self, line: str) -> tuple[bytes, list[str]]:
         """Carry out a line: what is punched and printed, a refused line's own text and mark left out."""
+        typed = Typed.of(line)
         tape, paper = len(self.tape.bytes()), len(self.paper)
-        self._carry_out(line)
+        self.answers = typed.answers
+        self.tape.last = blocks(self.tape.lines) + typed.block if typed.block else 0
+        self._carry_out(typed.text)
         printed = [row for text in self.paper[paper:] for row in text.split("\n") if row not in ("", "? ")]
         return self.tape.bytes()[tape:], printed
 
@@ -105,7 +162,7 @@ def statement(random: Random) -> str:
         (3, lambda: f"{pick(('GOTO', 'GOSUB'))} {pick((*NUMBERS, 55))}"),
         (2, lambda: "RETURN"),
         (1, lambda: f"IF {pick(_NUMBERS)}{pick(('=', '<', '>'))}{pick(_NUMBERS)} GOTO {pick(NUMBERS)}"),
-        (1, lambda: "INPUT A"),
+        (4, lambda: pick(("INPUT A", "INPUT P,A", "INPUT P"))),
         (2, lambda: pick(("CUT ,", "FROM", "PRINT )", "CUT O,1,2,X", "P1000=O", "K", "CUT (1,2"))),
         (1, lambda: "REM"),
     ]
@@ -132,7 +189,17 @@ def session(seed: str, number: int) -> list[str]:
             lines.append("NEW")
         else:
             lines.append(f"GOTO {random.choice(NUMBERS)}")
-    return [line for line in lines if line != "INPUT A"]
+    return [line + operator(random, line) for line in lines if not line.startswith("INPUT")]
+
+
+def operator(random: Random, line: str) -> str:
+    """What the operator does while a line works."""
+    answers, breaks = [], ""
+    if line.startswith(("RUN", "GO")) and random.random() < 0.7:
+        answers = random.choices(["3", "(1,2)", "1/0", "X", "A", "-1", "P"], k=random.choice((1, 2, 4)))
+    if line.startswith(("RUN", "GO", "CUT", "BACK", "RECUT", "REP", "SYM", "END", "FROM")) and random.random() < 0.3:
+        breaks = f"\t^C {random.choice((1, 1, 2, 3))}"
+    return "".join(f"\t? {answer}" for answer in answers) + breaks
 
 
 #: A line's part of the tape, and of the paper.
@@ -143,7 +210,7 @@ def by_model(lines: Sequence[str], bits: int | None = None) -> list[Answer]:
     """The model's answers, up to a line that is endless."""
     answers = []
     with watching() as watch, real.mp.workprec(bits or real.mp.prec):
-        model = Model((), watch, Punch())
+        model = Model((), watch, Tape())
         for line in lines:
             model.patience = PATIENCE
             try:
@@ -153,13 +220,30 @@ def by_model(lines: Sequence[str], bits: int | None = None) -> list[Answer]:
     return answers
 
 
+def worked(board: Board, typed: Typed) -> list[str]:
+    """Type a line and do what the operator does: the lines that are printed."""
+    machine = board.machine
+    start, before, end = machine.printed, len(board.tape), machine.cycles + LIMIT
+    machine.type(f"{typed.text}\r")
+    while (reason := machine.run(SLICE if typed.block else LIMIT)) != "prompt":
+        assert machine.cycles < end, f"{typed.text}: {reason}"
+        if reason == "input":
+            answer = next(typed.answers, None)
+            machine.press(CTRL_C) if answer is None else machine.type(f"{answer}\r")
+        elif typed.block and blocks(board.tape[before:].decode().split("\r\n")) == typed.block:
+            machine.press(CTRL_C)
+            typed.block = 0
+    return machine.paper_from(start).removesuffix(">").split("\r\n")[1:-1]
+
+
 def by_board(lines: Sequence[str]) -> list[Answer]:
     """The firmware's answers."""
     board = Board(RAM_KIB, limit=LIMIT)
     answers = []
     for line in lines:
         before = len(board.tape)
-        printed = [row for row in board.run(command=line) if row not in ("", ">", "? ") and not BLOCK.fullmatch(row)]
+        paper = worked(board, Typed.of(line))
+        printed = [row for row in paper if row not in ("", ">", "? ") and not BLOCK.fullmatch(row)]
         if len(printed) > 1 and printed[-2].strip() == "^" or printed[:1] and printed[0].strip() == "^":
             printed = printed[-1:]
         answers.append((board.tape[before:], printed))

@@ -38,6 +38,8 @@ def test_sessions_hold_what_is_looked_for() -> None:
             seen["stop at an error"] += bool(paper) and paper[-1].startswith("ERR") and tape.endswith(b"D\r\n")
             seen["re-positioning"] += line.startswith("FROM") and tape.startswith(b"D\r\n")
             seen["run"] += line.startswith("RUN") and b"DD" in tape
+            seen["a break at a block"] += "^C" in line and paper[-1:] == ["ERR 10"] and b"B" in tape
+            seen["an answer"] += any(row.startswith("? ") and row != "? " for row in paper)
             if paper and paper[-1].startswith("ERR"):
                 seen[paper[-1][:6]] += 1
                 failed = True
@@ -61,6 +63,18 @@ def test_sessions_hold_what_is_looked_for() -> None:
         # FROM whose move does not fit, from a start hole and from a route's end.
         ["FROM (-60000,0)", "FROM (60000,0)", "FROM (30000,5)", "CUT (0,5),(1,1)", "END"],
         ["CUT O,(-50000,0)", "FROM (50000,0)", "FROM (49999.999,0)", "CUT X,Y", "BACK"],
+        # A break behind a block: the wire is at its end, the route is over, BACK's as well.
+        [
+            "CUT O,(10,0),(10,10)\t^C 1",
+            "BACK",
+            "FROM (1,1)",
+            "CUT O,(9,0),(9,9)",
+            "BACK\t^C 3",
+            "RECUT",
+            "FROM O\t^C 1",
+        ],
+        ["FROM O", "FROM (5,5)\t^C 1", "CUT (6,6),(7,6)", "BACK"],
+        ["10 INPUT P,A", "20 CUT O,P,(A,A),(A,0)", "RUN\t? 1/0\t? (3,0)\t? 4\t^C 2", "PRINT P,A", "GOTO 20"],
         # A program gone on with behind an error.
         ["10 FROM O", "20 CUT O,(10,0),(10,10)", "30 CUT Q", "40 BACK", "RUN", "30 REM", "GOTO 40", "GOTO 20"],
         ["RUN", "CUT O,(1,0)", "RUN", "CUT O,(1,0)", "END"],

@@ -75,6 +75,7 @@ class Cutter:
         if self.moved:
             self._end_route()
             self.tape.check_move(p)
+            self.from_point = p
             self.tape.stop()
             self._straight(p, "reposition")
             self.tape.stop()
@@ -138,8 +139,8 @@ class Cutter:
         route = self._open_route()
         closed = Closed(tuple(route.items), route.fillet, route.right)
         route.close()
-        self._straight(self.from_point, "return")
         self.route = None
+        self._straight(self.from_point, "return")
         self.closed = closed
 
     def recut(self, offset: Real) -> None:
