@@ -231,8 +231,10 @@ function compare(found: string[], listed: string[]): void {
   if (odd.length) throw new Error(`web/src/catalogue.ts and examples/ differ: ${[...new Set(odd)].join(" ")}`);
 }
 
+const LESSONS = ["lessons.md", "lessons.zh.md"];
+
 /** The files inside the one file, in base64; with the pictures of the manuals. */
-const INSIDE = ["worker.js", "board.wasm", "walk.wasm", "skg.bin", "skg.sym", "parts.json", ...Object.keys(PAGES)];
+const INSIDE = ["worker.js", "board.wasm", "walk.wasm", "skg.bin", "skg.sym", "parts.json", ...LESSONS, ...Object.keys(PAGES)];
 
 /** The whole page as one file, skg.html: it runs from a double click, too. */
 async function oneFile(): Promise<void> {
@@ -296,7 +298,7 @@ async function main(): Promise<void> {
   readNames(readFileSync("roms/skg.sym", "latin1")); // (says what is missing)
   for (const file of ["skg.bin", "skg.sym"]) copyFileSync(join("roms", file), join(OUT, file));
   for (const wasm of ["board.wasm", "walk.wasm"]) copyFileSync(join("web/wasm", wasm), join(OUT, wasm));
-  for (const file of ["icon.svg", "manual.css"]) copyFileSync(join("web/src", file), join(OUT, file));
+  for (const file of ["icon.svg", "manual.css", ...LESSONS]) copyFileSync(join("web/src", file), join(OUT, file));
   writeFileSync(join(OUT, "index.html"), withCard(readFileSync("web/src/index.html", "utf8"), CARD));
   writeFileSync(
     join(OUT, "manifest.webmanifest"),

@@ -9,6 +9,7 @@ import { writeSteps } from "./written.ts";
 /** The kind of a file; `refused`: a word of language.ts with its values, the file's name first. */
 export type Found =
   | { kind: "program"; text: string }
+  | { kind: "lessons"; text: string }
   | { kind: "tape"; text: string }
   | { kind: "saved"; saved: Everything }
   | { kind: "refused"; why: Word; values: (string | number)[] };
@@ -30,6 +31,7 @@ export function recognize(name: string, bytes: Uint8Array): Found {
   if (/\.(xy|tkh)$/i.test(name)) return refuse("noXy");
   if (!bytes.length) return refuse("badEmpty");
   const text = new TextDecoder("latin1").decode(bytes);
+  if (/\.md$/i.test(name)) return { kind: "lessons", text: utf8(bytes) ?? text };
   if (/^\s*\{/.test(text)) {
     const saved = readEverything(utf8(bytes) ?? text);
     return saved ? { kind: "saved", saved } : refuse("badSaved");

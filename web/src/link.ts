@@ -4,6 +4,9 @@
 export interface Link {
   program?: string;
   part?: string;
+  /** A step of the lessons, from 1, and a teacher's file of them. */
+  lesson?: number;
+  lessons?: string;
   run: boolean;
   embed: boolean;
 }
@@ -65,5 +68,8 @@ export async function readLink(hash: string): Promise<Link> {
   const part = fields.get("part");
   if (code !== null) link.program = await unpack(code);
   if (part) link.part = part;
+  const [lesson, lessons] = [fields.get("lesson"), fields.get("lessons")];
+  if (lesson && /^\d{1,3}$/.test(lesson)) link.lesson = Number(lesson);
+  if (lessons) link.lessons = await unpack(lessons);
   return link;
 }

@@ -1,5 +1,6 @@
 /** The page: puts its parts together and starts the machine. */
 import { bind } from "./controls.ts";
+import { Course } from "./course.ts";
 import { get, onClick } from "./dom.ts";
 import { Inside } from "./inside.ts";
 import { keepSafe } from "./keeping.ts";
@@ -42,7 +43,11 @@ const settings: Settings = {
 
 const partOf = (text: string): string | undefined =>
   opening.parts.find(({ program, listed }) => text === program || text === listed)?.name;
-const works = new Works(isEmbedded ? { works: [] } : store, (program) => partOf(program) !== undefined, tellWorks);
+const works = new Works(
+  isEmbedded ? { works: [] } : store,
+  (program) => partOf(program) !== undefined || course.isGiven(program),
+  tellWorks,
+);
 const bench = new Workbench({ works, partOf, isAuto: () => settings.auto, openManual, showDrawing });
 const teletype = new Teletype(get("terminal"), { type: (text) => session.type(text), press: (key) => session.press(key) }, "");
 const status = new StatusLine(bench, teletype);
@@ -57,6 +62,7 @@ const session = new Session(workerAddress(), teletype, isEmbedded ? undefined : 
     if (state === "prompt") {
       if (!isEmbedded) store.tape = recording.kept;
       void welcome.isCut();
+      void bench.stage.pictures.measured?.then(() => course.check());
     }
     status.show(state);
   },
@@ -79,7 +85,8 @@ const session = new Session(workerAddress(), teletype, isEmbedded ? undefined : 
 });
 bench.session = session;
 const menu = new SettingsMenu(settings, bench, teletype, (changed) => (store.settings = changed));
-const opening = new Opening(bench, works, (changed) => menu.apply(changed));
+const course = new Course(bench);
+const opening = new Opening(bench, works, course, (changed) => menu.apply(changed));
 rove(get("shelf"));
 bind(bench, teletype, opening, settings, works);
 for (const button of document.querySelectorAll(".pane .close")) button.addEventListener("click", closePane);
@@ -123,6 +130,7 @@ menu.onLanguage = () => {
   tellWorks();
   bench.refresh();
   turnManual();
+  void course.retell();
   inside.retell();
 };
 

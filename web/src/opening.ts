@@ -1,5 +1,6 @@
 /** Opens parts of the list, links, files. */
 import { changeOf } from "./catalogue.ts";
+import type { Course } from "./course.ts";
 import { get } from "./dom.ts";
 import { readWhole, recognize, tooLarge } from "./files.ts";
 import { t } from "./language.ts";
@@ -13,11 +14,13 @@ import type { Work, Works } from "./works.ts";
 export class Opening {
   readonly #bench: Workbench;
   readonly #works: Works;
+  readonly #course: Course;
   readonly #apply: (settings: Partial<Settings>) => void;
   parts: Part[] = [];
 
   /** `apply` puts settings in force. */
-  constructor(bench: Workbench, works: Works, apply: (settings: Partial<Settings>) => void) {
+  constructor(bench: Workbench, works: Works, course: Course, apply: (settings: Partial<Settings>) => void) {
+    this.#course = course;
     this.#bench = bench;
     this.#works = works;
     this.#apply = apply;
@@ -25,6 +28,7 @@ export class Opening {
 
   /** Opens a part, and shows it cut. */
   part(part: Part, run = true, isLinked = false): void {
+    this.#course.close();
     void this.#bench.open(part.program, { run, isSound: true, isLinked });
     markPart(get("part-list"), part.name);
     this.tell(part);
@@ -50,7 +54,11 @@ export class Opening {
       if (!(error instanceof LinkError)) throw error;
       return { isOpened: false, fault: () => say("badLink") };
     }
-    const { program, run, part: name = "" } = link;
+    const { program, run, part: name = "", lesson, lessons } = link;
+    if (lessons !== undefined) await this.#course.open(t("lessons"), lessons, lesson);
+    else if (lesson !== undefined) await this.#course.begin(lesson);
+    if (lesson !== undefined || lessons !== undefined) return { isOpened: true };
+    this.#course.close();
     const part = this.parts.find((each) => each.name === name);
     const wanted = program ?? part?.program;
     if (wanted === undefined) return { isOpened: false, ...(name ? { fault: () => say("badPart", name) } : {}) };
@@ -67,6 +75,7 @@ export class Opening {
 
   #open(text: string, how: { run?: boolean; file?: string; isLinked?: boolean }): Promise<void> {
     markPart(get("part-list"), undefined);
+    this.#course.close();
     return this.#bench.open(text, how);
   }
 
@@ -75,6 +84,9 @@ export class Opening {
     switch (found.kind) {
       case "program":
         await this.#open(found.text, { file: file.name });
+        break;
+      case "lessons":
+        await this.#course.open(file.name, found.text);
         break;
       case "tape":
         await this.#tape(file.name, found.text);

@@ -63,6 +63,11 @@ export class Pictures {
     this.measured = this.#walkBar.grown();
   }
 
+  /** A contour does not close. */
+  get gap(): boolean {
+    return this.#walkBar?.gap ?? false;
+  }
+
   /** The walk begins. */
   play(): void {
     this.#walkBar?.play();

@@ -116,6 +116,12 @@ export class WalkBar {
     requestAnimationFrame((now) => this.#frame(now));
   }
 
+  /** A contour does not close, by more than comes of rounding. */
+  get gap(): boolean {
+    const gap = this.#walk.closing(this.#layout.routes);
+    return gap !== undefined && Math.max(...gap.map(Math.abs)) > ROUNDED;
+  }
+
   /** Puts the wire at a part of its way, 0 to 1; it stands. */
   at(part: number): void {
     if (this.#isPlaying) this.#stop();

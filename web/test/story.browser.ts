@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { existsSync, readFileSync } from "node:fs";
 import { after, before, describe, test } from "node:test";
 import { pack } from "../src/link.ts";
-import { AXE, begin, CHROMIUM, drawn, end, longestTask, says, served, shot, visit } from "./chromium.ts";
+import { AXE, begin, CHROMIUM, drawn, end, hasLines, longestTask, open, prompt, says, served, shot, visit } from "./chromium.ts";
 import { serve, WHOLE } from "./served.ts";
 
 interface Axe {
@@ -165,6 +165,81 @@ describe("the story", { skip: existsSync(CHROMIUM) ? false : "chromium is not in
     assert.equal((await heard()).sparks, 0);
     assert.deepEqual(said, []);
     await context.close();
+  });
+
+  test("lessons: a task is checked by the tape; a teacher links a step, and brings a file", async () => {
+    const { page, context, said } = await visit({}, "#lesson=2");
+    await says(page, "#lesson-title", "2/10 A line");
+    await says(page, "#lines .cm-line:nth-child(2)", "20 CUT X,Y:40,-X:30,-Y");
+    await prompt(page);
+    const write = async (line: number, text: string) => {
+      await page.click(`#lines .cm-line:nth-child(${line})`);
+      await page.keyboard.press("Home");
+      await page.keyboard.press("Shift+End");
+      await page.keyboard.type(text);
+      await page.keyboard.press("Control+Enter");
+    };
+    await write(2, "20 CUT X,Y:50,-X:31,-Y");
+    await says(page, "#lesson-check", /^Not yet: block \d/);
+    await page.waitForFunction(() => document.querySelectorAll("#list [aria-selected=true]").length === 1);
+    // the learner's own text is there after a reload
+    await prompt(page);
+    await page.reload();
+    await says(page, "#lesson-title", "2/10 A line");
+    await says(page, "#lines .cm-line:nth-child(2)", "20 CUT X,Y:50,-X:31,-Y");
+    await prompt(page);
+    await write(2, "20 CUT X,Y:50,-X:30,-Y");
+    await says(page, "#lesson-check", /^Right/);
+    await page.evaluate(AXE);
+    const found = await page.evaluate(async () => {
+      const { violations } = await (window as unknown as { axe: Axe }).axe.run({ runOnly: ["wcag2a", "wcag2aa", "wcag21aa"] });
+      return violations.map(({ id, nodes }) => `${id}: ${nodes[0]?.html} ${nodes[0]?.failureSummary}`);
+    });
+    assert.deepEqual(found, []);
+    await shot(page, "lesson");
+    await prompt(page);
+    await page.click("#lesson-next");
+    await says(page, "#lesson-title", "3/10 A circle");
+    assert.equal(await page.evaluate(() => location.hash), "#lesson=3");
+    await says(page, "#lines .cm-line:nth-child(1)", "10 C=(20,15):6");
+    await prompt(page);
+    await page.click("#lesson-answer");
+    await says(page, "#lesson-check", /^Right/);
+    // what lessons give is none of the learner's programs; the learner's own one is
+    assert.equal(await page.locator(".work").count(), 1);
+    // another language, the same step
+    await page.locator("details.menu summary").nth(2).click();
+    await page.selectOption("#language", "zh");
+    await says(page, "#lesson-title", "3/10 圆");
+    await page.selectOption("#language", "en");
+    await page.keyboard.press("Escape");
+    // a teacher's file: refused with its line, opened, linked
+    await open(page, "mine.md", "# M\n\n## A\n\n```tape\nB1\n```\n");
+    await says(page, "#message span", "mine.md, line 6: this is no 3B block.");
+    await says(page, "#lesson-title", "3/10 A circle");
+    await open(
+      page,
+      "mine.md",
+      "# M\n\n## A hole\n\nTask: cut `C`.\n\n```skg\n10 C=O:3\n20 FROM O\n30 END\n```\n\n```tape\nB3000B0B3000GXL1\nB3000B0B12000GYNR1\nB3000B0B3000GXL3\nDD\n```\n",
+    );
+    await says(page, "#lesson-title", "1/1 A hole");
+    const link = await page.evaluate(() => location.href);
+    assert.match(link, /#lessons=[\w-]+&lesson=1$/);
+    await context.close();
+    const other = await visit({}, new URL(link).hash);
+    await says(other.page, "#lesson-title", "1/1 A hole");
+    await hasLines(other.page, ["10 C=O:3", "20 FROM O", "30 END"]);
+    await prompt(other.page);
+    await other.page.click("#terminal");
+    await other.page.keyboard.type("25 CUT C\r27 BACK\rRUN\r");
+    await says(other.page, "#lesson-check", /^Right/);
+    await other.page.click("#lesson-close");
+    assert.equal(await other.page.evaluate(() => location.hash), "");
+    assert.equal(await other.page.isVisible("#lesson"), false);
+    await other.page.click("#lesson-begin");
+    await says(other.page, "#lesson-title", "1/10 A point");
+    assert.deepEqual([...said, ...other.said], []);
+    await other.context.close();
   });
 
   test("a card for each part: title and picture; who follows it comes to the part", async () => {
