@@ -118,7 +118,7 @@ def test_cut_starts_without_the_reference() -> None:
     """`skg cut` of a drawing loads neither the interpreter nor what draws sheets, nor ezdxf before an entity needs it:
     more than half a second."""
     text = (
-        "import sys; import skg.commands.cut, skg.cutting.job, skg.reading.dxf_entities, skg.reading.svg_shapes; "
+        "import sys; import skg.commands.cut, skg.cutting.ladder, skg.reading.dxf_entities, skg.reading.svg_shapes; "
         "print([name for name in ('matplotlib', 'lark', 'mpmath', 'skg.ref', 'ezdxf') if name in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)

@@ -261,7 +261,7 @@ def test_no_room_for_the_offset(run: Run, tmp_path: Path, offset: float, words: 
 def test_wrong_tapes_are_found() -> None:
     """The check is no yes-man: a tape for another offset, one block bent, one contour left out."""
     from skg.checking.check import check
-    from skg.cutting.job import make
+    from skg.cutting.ladder import make
     from skg.cutting.refusal import refuse
     from skg.geometry.contour import Contour, Edge
     from skg.planning.plan import plan
@@ -311,7 +311,7 @@ def test_what_adds_up_on_a_standard_tape_is_said(run: Run, tmp_path: Path) -> No
 def test_the_controllers_steps_count() -> None:
     """The controller's own path is compared with 3 µm and reported: on a slant it steps aside."""
     from skg.checking.check import check
-    from skg.cutting.job import make
+    from skg.cutting.ladder import make
     from skg.geometry.contour import Contour, Edge
     from skg.planning.plan import plan
 
@@ -342,7 +342,7 @@ def test_the_controllers_steps_count() -> None:
 def test_each_pass_keeps_its_own_distance(corner: bytes, cut_short: bytes) -> None:
     """A pass that goes around a corner where the last one should is found, though no part is spoiled by it."""
     from skg.checking.check import check
-    from skg.cutting.job import make
+    from skg.cutting.ladder import make
     from skg.geometry.contour import Contour, Edge
     from skg.planning.plan import plan
 
@@ -360,7 +360,7 @@ def test_each_pass_keeps_its_own_distance(corner: bytes, cut_short: bytes) -> No
 def test_a_circle_too_many_is_found() -> None:
     """At a corner the wire goes on along the line or circle there, but not all around that."""
     from skg.checking.check import check
-    from skg.cutting.job import make
+    from skg.cutting.ladder import make
     from skg.geometry.contour import Contour, Edge
     from skg.planning.plan import plan
 
@@ -718,7 +718,7 @@ def test_a_curve_that_a_controller_leaves_is_cut_along_chords(
 def test_a_small_round_opening_that_another_crosses(turn: float, offset: float) -> None:
     """The start hole of an opening with less room than the lead is long is not its centre, from where the ROM would go
     to the +X side, when something lies on that way."""
-    from skg.cutting.job import make
+    from skg.cutting.ladder import make
     from skg.geometry.contour import Contour, Edge
     from skg.planning.plan import plan
 
@@ -862,7 +862,7 @@ def test_an_open_contour_beside_which_the_wire_runs_has_one_pass(run: Run, tmp_p
 def test_contours_with_passes_of_their_own(one: tuple[float, ...], other: tuple[float, ...], tab: float) -> None:
     """Two squares, each with its own number of passes: all of these are checked, and none that is not there."""
     from skg.checking.check import check
-    from skg.cutting.job import make
+    from skg.cutting.ladder import make
     from skg.geometry.contour import Contour, Edge
     from skg.planning.plan import plan
 
@@ -961,7 +961,7 @@ def test_a_tab_goes_around_corners(run: Run, tmp_path: Path) -> None:
 def test_sheet(tmp_path: Path, size: float, columns: int, kinds: list[str]) -> None:
     """Numbers do not touch each other, other texts, the part or another hole's mark; marks are smaller than what they
     mark."""
-    from skg.cutting.job import make
+    from skg.cutting.ladder import make
     from skg.geometry.contour import Contour, Edge
     from skg.pictures.sheet import Facts, SetupSheet
     from skg.planning.plan import plan
@@ -1023,7 +1023,7 @@ def test_sheet(tmp_path: Path, size: float, columns: int, kinds: list[str]) -> N
 @pytest.mark.parametrize("size", [(3, 3), (10, 8), (70, 30), (30, 70), (200, 9), (4, 120), (420, 300)])
 def test_a_part_fills_its_sheet(size: tuple[float, float]) -> None:
     """Whatever its form, it takes more than half of the page's free width or height; the stock stands on the page."""
-    from skg.cutting.job import make
+    from skg.cutting.ladder import make
     from skg.geometry.contour import Contour, Edge
     from skg.pictures.sheet import Facts, SetupSheet
     from skg.planning.plan import plan
@@ -1046,7 +1046,7 @@ def test_a_part_fills_its_sheet(size: tuple[float, float]) -> None:
 def test_each_number_belongs_to_one_hole(width: float) -> None:
     """Pairs of holes near each other, on paper or in the part: a number is nearest to its own hole, or has a line to
     it; none lies on the wire's path, and no letters are smaller than 5 points."""
-    from skg.cutting.job import make
+    from skg.cutting.ladder import make
     from skg.geometry.contour import Contour, Edge
     from skg.pictures.sheet import Facts, SetupSheet
     from skg.planning.plan import plan

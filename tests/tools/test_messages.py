@@ -195,3 +195,25 @@ def test_advice_can_be_followed_in_all_three_places() -> None:
         assert name in ("tolerance", "units", "layer", "encoding") or f"value-{given}" in CATALOGUES["zh"]
         followed.add(field)
     assert len(followed) > 8
+
+
+def test_sentences_stand_in_the_catalogues() -> None:
+    """What is raised or told is a finding. (The reference and the rivals have their own words.)"""
+    takers = {"UserError", "BoardStopped", "Conflict", "Ended", "Stopped", "Misread", "UsageError", "BadParameter"}
+    takers |= {"tell", "say", "remark", "warn", "fail"}
+    looked = 0
+    for path in sorted(SKG.rglob("*.py")):
+        if path.relative_to(SKG).parts[0] in ("ref", "rivals"):
+            continue
+        for node in ast.walk(ast.parse(path.read_text())):
+            name = getattr(node.func, "id", getattr(node.func, "attr", "")) if isinstance(node, ast.Call) else ""
+            if name not in takers:
+                continue
+            for argument in node.args[:2]:
+                looked += 1
+                parts = argument.values if isinstance(argument, ast.JoinedStr) else [argument]
+                texts = [part.value for part in parts if isinstance(part, ast.Constant) and isinstance(part.value, str)]
+                assert not any(" " in text.strip() for text in texts if text not in ("skg term", "skg ui")), (
+                    f"{path}:{node.lineno}"
+                )
+    assert looked > 100

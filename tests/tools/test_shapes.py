@@ -13,7 +13,7 @@ from oneblock import run_block
 from toolhelp import Run
 
 from skg import tape as tapes
-from skg.cutting import job
+from skg.cutting import ladder
 from skg.errors import UserError
 from skg.geometry.plane import XY
 from skg.machine.board import ErrorLine
@@ -117,8 +117,8 @@ def test_a_gear_tooth_by_tooth(run: Run, monkeypatch: pytest.MonkeyPatch) -> Non
     def small_one_by_one(routes: list[str], rom: str, ram_kib: int, _told: object) -> Fed:
         return small("".join(routes), rom, ram_kib)
 
-    monkeypatch.setattr(job, "feed", small)
-    monkeypatch.setattr(job, "feed_routes", small_one_by_one)
+    monkeypatch.setattr(ladder, "feed", small)
+    monkeypatch.setattr(ladder, "feed_routes", small_one_by_one)
     again = run("gear", *words)
     assert "REP" not in again.stdout and again.stdout.count("CUT") > 12
     assert says(again.stderr, "1 closed contour", "µm")

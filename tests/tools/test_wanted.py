@@ -9,7 +9,7 @@ from math import dist
 import pytest
 from facthelp import pattern
 
-from skg.cutting.job import make
+from skg.cutting.ladder import make
 from skg.errors import UserError
 from skg.geometry.contour import Contour, Edge
 from skg.job.job import MachineSetup

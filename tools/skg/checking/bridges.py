@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 
-from skg.checking.follow import Threading
+from skg.checking.follow import Stretch
 from skg.checking.gouges import lines_of
 from skg.checking.wire_path import LIMIT, WirePath
 from skg.geometry.areas import areas_of
@@ -33,10 +33,10 @@ class Fallen(NamedTuple):
     place: XY
 
 
-def fallen(path: WirePath, cuts: Sequence[Threading], routes: Sequence[PlannedContour]) -> Iterator[Fallen]:
+def fallen(path: WirePath, cuts: Sequence[Stretch], routes: Sequence[PlannedContour]) -> Iterator[Fallen]:
     """The tabs that the wire has cut, or cut off, before it comes to them."""
     firsts = np.cumsum([0, *(cut.blocks.stop - cut.blocks.start for cut in cuts)])
-    stretches: dict[int, list[tuple[Threading, slice]]] = {}
+    stretches: dict[int, list[tuple[Stretch, slice]]] = {}
     for cut, first, last in zip(cuts, firsts, firsts[1:], strict=False):
         if routes[cut.route].tabs:
             stretches.setdefault(cut.route, []).append((cut, slice(int(first), int(last))))

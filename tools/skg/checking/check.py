@@ -23,7 +23,7 @@ import numpy as np
 from skg.checking.bridges import Fallen, fallen
 from skg.checking.check_coverage import not_reached
 from skg.checking.check_distance import into_others, off_contours
-from skg.checking.follow import Followed, Threading, follow
+from skg.checking.follow import Followed, Stretch, follow
 from skg.checking.gouges import Crossing
 from skg.checking.wire_path import Beside, Misfit, Share, WirePath
 from skg.geometry.arrays import Flags, Floats, Whole
@@ -51,7 +51,7 @@ class Checked:
     fallen: list[Fallen]
 
     @property
-    def cuts(self) -> list[Threading]:
+    def cuts(self) -> list[Stretch]:
         """Its cuts."""
         return self.followed.cuts
 

@@ -17,7 +17,7 @@ from skg.tape.moves import closed_moves, walk
 
 
 @dataclass(frozen=True)
-class Threading:
+class Stretch:
     """One stretch of cutting, from where the wire is threaded: whose it is, which passes it has, which blocks of the
     tape, what the wire travels (mm), and how far from its beginning it ends (µm)."""
 
@@ -36,7 +36,7 @@ class Followed:
 
     laid: Laid
     off_curve: Floats
-    cuts: list[Threading]
+    cuts: list[Stretch]
     drift: float
 
 
@@ -62,7 +62,7 @@ def follow(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> 
     gaps = (places[lasts] - places[firsts]).tolist()
     lengths = laid.lengths()
     cuts = [
-        Threading(*owner, slice(first, last), float(lengths[first:last].sum()) / 1000, tuple(gap))
+        Stretch(*owner, slice(first, last), float(lengths[first:last].sum()) / 1000, tuple(gap))
         for owner, (first, last), gap in zip(owners, tape.bounds[::2], gaps, strict=True)
     ]
     return Followed(laid, walked.off_curve, cuts, drift)

@@ -44,7 +44,7 @@ from skg.tape.gcode import is_gcode
 from skg.terminal import remark, show, tell
 
 if TYPE_CHECKING:
-    from skg.cutting.job import CutResult
+    from skg.cutting.ladder import CutResult
     from skg.pipeline.steps import CutDrawing
 
 

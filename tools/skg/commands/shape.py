@@ -39,13 +39,13 @@ def write_shape(name: str, shape: Gear | Cam, output: str, offset: float | None,
     from skg.messages.render import line
 
     try:
-        job = shape.cut(name, Wanted(offset=offset or 0.0, tab=tab))
+        result = shape.cut(name, Wanted(offset=offset or 0.0, tab=tab))
     except UserError as error:
         raise error.within(name) from None
-    if any(route.traced and any(route.passes) for route in job.routes):
+    if any(route.traced and any(route.passes) for route in result.routes):
         raise UserError(Finding("shape-too-narrow", offset=offset).within(name))
-    write_bytes(output, job.program.encode("ascii"))
+    write_bytes(output, result.program.encode("ascii"))
     if tape:
-        write_bytes(tape, job.data)
-    for finding in findings(job):
+        write_bytes(tape, result.data)
+    for finding in findings(result):
         tell(line(finding))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import accumulate
 from math import atan2, cos, hypot, pi, radians, sin
 
-from skg.cutting.job import CutResult, make
+from skg.cutting.ladder import CutResult, make
 from skg.errors import UserError
 from skg.geometry.contour import Contour, Edge
 from skg.geometry.fitting import curve_edge

@@ -10,7 +10,7 @@ from math import acos, asin, atan2, cos, hypot, pi, radians, sin, sqrt, tan
 
 import numpy as np
 
-from skg.cutting.job import CutResult, make, run
+from skg.cutting.ladder import CutResult, make, run
 from skg.cutting.program import Program, RoutePart, parts_of
 from skg.errors import UserError
 from skg.geometry.contour import Contour, Edge

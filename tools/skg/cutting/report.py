@@ -6,9 +6,9 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 
-from skg.checking.follow import Threading
+from skg.checking.follow import Stretch
 from skg.checking.wire_path import LIMIT
-from skg.cutting.job import CutResult
+from skg.cutting.ladder import CutResult
 from skg.cutting.manner import manners, numbered, stops
 from skg.cutting.refusal import depth
 from skg.geometry.offset import NoRoom, sharpest, uncut, wire_way
@@ -205,6 +205,6 @@ def _more(every: Sequence, code: str) -> list[Finding]:
     return [Finding(code, count=more)] * (more > 0)
 
 
-def _closing(cuts: list[Threading], routes: list[PlannedContour]) -> Phrase | None:
+def _closing(cuts: list[Stretch], routes: list[PlannedContour]) -> Phrase | None:
     closed = {cut.route for cut in cuts if routes[cut.route].contour.is_closed and not routes[cut.route].tabs}
     return Phrase("closing", count=len(closed)) if closed else None

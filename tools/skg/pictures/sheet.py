@@ -17,7 +17,7 @@ from matplotlib.patches import Circle, PathPatch, Polygon
 from matplotlib.transforms import Affine2D
 
 from skg.checking.check import drawn
-from skg.cutting.job import CutResult
+from skg.cutting.ladder import CutResult
 from skg.cutting.manner import manners, stops
 from skg.geometry.arrays import numbers_up_to
 from skg.geometry.contour import Places
@@ -154,14 +154,14 @@ class _Marks:
 
 
 class SetupSheet:
-    """A page with a job on it."""
+    """A page with a cut on it."""
 
-    def __init__(self, job: CutResult, facts: Facts) -> None:
-        self.job, self.facts = job, facts
-        self.manners = manners(job.routes)
+    def __init__(self, result: CutResult, facts: Facts) -> None:
+        self.result, self.facts = result, facts
+        self.manners = manners(result.routes)
         self.notes = self._notes()
         #: The start holes, each with its contour.
-        self.holes = [(hole, route) for route in job.routes for hole in route.holes]
+        self.holes = [(hole, route) for route in result.routes for hole in route.holes]
         rows = len(self.holes)
         self.foot = _MARGIN + _HEAD + len(self.notes) * _NOTE
         per_column = [self._rows_in(page[1] - _MARGIN - self.foot) for page in (_A4, _A3)]
@@ -204,13 +204,13 @@ class SetupSheet:
         if len(texts) > _MANNERS:
             texts[_MANNERS:] = [text(Phrase("sheet-more-manners", count=len(texts) - _MANNERS))]
         lines = [texts[index : index + 2] for index in range(0, len(texts), 2)]
-        if reasons := tuple(stops(self.job.routes)):
+        if reasons := tuple(stops(self.result.routes)):
             lines.insert(0, [text(Phrase("two-stops", reasons=reasons))])
         return lines
 
     def _measure(self) -> None:
         """Measure the part, and the part with its start holes."""
-        pieces = [piece for route in self.job.routes for piece in drawn(route)]
+        pieces = [piece for route in self.result.routes for piece in drawn(route)]
         self.curve = outlines(pieces)
         points = np.array([point for piece in pieces for point in piece.extremes()])
         # (a bound of -1e-17 is 0)
@@ -266,7 +266,7 @@ class SetupSheet:
 
     def _part(self) -> None:
         self._patch(self.curve, 1.0, edgecolor=_INK, linewidth=0.7, zorder=3, gid="part")
-        lines = [edge.points() for route in self.job.routes for edge in route.contour.edges]
+        lines = [edge.points() for route in self.result.routes for edge in route.contour.edges]
         starts = self._all_on_paper(place for points in lines for place in points[:-1])
         self._take_lines(starts, self._all_on_paper(place for points in lines for place in points[1:]))
 
@@ -281,8 +281,8 @@ class SetupSheet:
 
     def _wire(self) -> None:
         """The wire's path, the moves between start holes, an arrow on each contour."""
-        laid = self.job.checked.followed.laid
-        cuts = [part for cut in self.job.checked.cuts if len(part := laid[cut.blocks])]
+        laid = self.result.checked.followed.laid
+        cuts = [part for cut in self.result.checked.cuts if len(part := laid[cut.blocks])]
         if cuts:
             curve = outlines(Laid.joined(cuts))
             self._patch(curve, 0.001, edgecolor=_WIRE, linewidth=0.3, zorder=2, gid="wire")
@@ -292,7 +292,7 @@ class SetupSheet:
                 for side in ([cut.starts for cut in cuts], [cut.ends for cut in cuts])
             )
             self._take_lines(starts, ends)
-            if any(abs(route.widest) * self.scale > _GRID for route in self.job.routes):
+            if any(abs(route.widest) * self.scale > _GRID for route in self.result.routes):
                 # (elsewhere the wire's path is where the part's lines are)
                 tenths = Affine2D().scale(0.001 * self.scale).translate(*self.shift).scale(10)
                 path = [places / 10 for places in curve.to_polygons(tenths, closed_only=False)]
@@ -300,7 +300,7 @@ class SetupSheet:
         holes = self._all_on_paper(hole for hole, _ in self.holes)
         moves = np.stack([holes[:-1], holes[1:]], axis=1)
         self._lines(moves, edgecolor=_GREY, linewidth=0.3, linestyle=(0, (6, 4)), zorder=1, gid="moves")
-        arrows = [arrow for route in self.job.routes if (arrow := self._arrow(route))]
+        arrows = [arrow for route in self.result.routes if (arrow := self._arrow(route))]
         if arrows:
             places = np.array(arrows)
             self._lines(places, edgecolor=_WIRE, linewidth=0.7, capstyle="projecting", zorder=4, gid="arrows")
@@ -432,8 +432,8 @@ class SetupSheet:
         """Number, place, kind and length of each start hole."""
         table = self.table
         lengths = dict.fromkeys((route.turn for _, route in self.holes), 0.0)
-        for cut in self.job.checked.cuts:
-            lengths[self.job.routes[cut.route].turn] += cut.length
+        for cut in self.result.checked.cuts:
+            lengths[self.result.routes[cut.route].turn] += cut.length
         letters = {number: _letters(index) for index, numbers in enumerate(self.manners.values()) for number in numbers}
         count = min(len(self.holes), table.columns * table.rows)
         row_height, column_width = _ROW * self.larger, _COLUMN * self.larger
@@ -466,7 +466,7 @@ class SetupSheet:
 
     def _title(self, left_out: int) -> None:
         """The notes, and the block of facts at the foot of the page."""
-        job, facts, page = self.job, self.facts, self.page
+        result, facts, page = self.result, self.facts, self.page
         for row, texts in enumerate(self.notes):
             wide = (page[0] - 2 * _MARGIN) / len(texts)
             for column, note in enumerate(texts):
@@ -474,13 +474,13 @@ class SetupSheet:
                 self._text(place, *_fitted(note, wide - 4), _INK, va="center")
         for y in (_MARGIN, _MARGIN + _HEAD - 2):
             self.axes.plot((_MARGIN, page[0] - _MARGIN), (y, y), color=_INK, linewidth=0.5)
-        setup = job.machine
+        setup = result.machine
         untold = text(Phrase("sheet-not-told"))
         wire = untold
         if setup.wire is not None:
             wire = text(Phrase("sheet-wire-and-gap", wire=setup.wire, gap=setup.gap or 0.0))
         holes = Phrase("count-holes", count=len(self.holes))
-        blocks = Phrase("count-blocks", count=len(job.tape.blocks))
+        blocks = Phrase("count-blocks", count=len(result.tape.blocks))
         without = Phrase("sheet-without-room", count=left_out) if left_out else None
         ratio = f"{self.scale:.4g}:1" if self.scale >= 1 else f"1:{1 / self.scale:.4g}"
         columns = (
@@ -488,7 +488,7 @@ class SetupSheet:
             (
                 ("size", f"{short(self.high[0] - self.low[0])} x {short(self.high[1] - self.low[1])} mm"),
                 ("units", facts.units),
-                ("contours", text(Phrase("sheet-contours-and-holes", contours=len(job.routes), holes=holes))),
+                ("contours", text(Phrase("sheet-contours-and-holes", contours=len(result.routes), holes=holes))),
                 ("numbers", text(Phrase("sheet-in-order", without=without))),
             ),
             (
@@ -498,10 +498,10 @@ class SetupSheet:
                 ("rom", setup.rom),
             ),
             (
-                ("start", f"{shown(job.routes[0].start)} mm"),
-                ("stops", text(Phrase("sheet-stops-and-blocks", stops=len(job.tape.stops), blocks=blocks))),
-                ("length", f"{job.cut_length:.1f} mm"),
-                ("time", text(Phrase("sheet-time-at", time=duration(job.seconds), feed=setup.feed))),
+                ("start", f"{shown(result.routes[0].start)} mm"),
+                ("stops", text(Phrase("sheet-stops-and-blocks", stops=len(result.tape.stops), blocks=blocks))),
+                ("length", f"{result.cut_length:.1f} mm"),
+                ("time", text(Phrase("sheet-time-at", time=duration(result.seconds), feed=setup.feed))),
             ),
         )
         wide = (page[0] - 2 * _MARGIN) / len(columns)
@@ -549,14 +549,14 @@ def _fitted(text: str, width: float) -> tuple[str, float]:
     return f"{text[:first]}…{text[last:]}", size
 
 
-def write_sheet(job: CutResult, facts: Facts, output: str, form: str) -> None:
-    """Write the setup sheet of a job; `form` is "pdf", "svg" or "png". It is in English where no installed font has
+def write_sheet(result: CutResult, facts: Facts, output: str, form: str) -> None:
+    """Write the setup sheet of a cut; `form` is "pdf", "svg" or "png". It is in English where no installed font has
     Chinese letters (what shows an SVG has its own)."""
     language = speech.language
     if form != "svg" and not installed():
         speech.language = "en"
     try:
-        sheet = SetupSheet(job, facts)
+        sheet = SetupSheet(result, facts)
         sheet.draw()
         sheet.save(output, form)
     finally:

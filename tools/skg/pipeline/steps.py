@@ -14,7 +14,7 @@ from functools import cached_property
 from hashlib import sha256
 
 from skg.checking.check_drawn import NEAR, Named, off_drawn
-from skg.cutting.job import CutResult, make
+from skg.cutting.ladder import CutResult, make
 from skg.cutting.progress import Progress, in_silence
 from skg.cutting.report import findings
 from skg.errors import UserError

@@ -82,18 +82,18 @@ def make(routes: list[PlannedContour], title: str, machine: MachineSetup, progre
     ladder = _Ladder(routes, title, machine, progress)
     ladder.leave_short()
     ladder.tame()
-    job = ladder.around_tips(ladder.through())
-    refusal.refuse(job.checked, job.routes, machine)
-    return replace(job, left=tuple(ladder.left))
+    result = ladder.around_tips(ladder.through())
+    refusal.refuse(result.checked, result.routes, machine)
+    return replace(result, left=tuple(ladder.left))
 
 
 def run(program: Program, machine: MachineSetup) -> CutResult:
     """Let the board run a program, check the tape; one that is refused, or wrong, is a `UserError`."""
-    job = _tried(program, machine, in_silence)
-    if isinstance(job, ErrorLine):
-        raise UserError(refusal.meaning(job.number))
-    refusal.refuse(job.checked, job.routes, machine)
-    return job
+    result = _tried(program, machine, in_silence)
+    if isinstance(result, ErrorLine):
+        raise UserError(refusal.meaning(result.number))
+    refusal.refuse(result.checked, result.routes, machine)
+    return result
 
 
 def _arcs_for_fillets(route: PlannedContour, trouble: _Trouble) -> PlannedContour | None:
@@ -164,15 +164,15 @@ class _Ladder:
         """Try all contours, and those by themselves that did not go through, until all do."""
         numbers = list(self.routes)
         while True:
-            job, troubles = self._try({number: self.routes[number] for number in numbers})
+            result, troubles = self._try({number: self.routes[number] for number in numbers})
             if troubles:
                 self._climb(troubles)
             elif len(numbers) == len(self.routes):
-                return job
+                return result
             again = [number for number in self.routes if number in troubles]
             numbers = again if 0 < 2 * len(again) < len(self.routes) else list(self.routes)
 
-    def around_tips(self, job: CutResult) -> CutResult:
+    def around_tips(self, result: CutResult) -> CutResult:
         """The tape of which the wire goes around the tips that it would run far past, with its own way, where that is
         right; else the one that there is."""
         around: dict[int, PlannedContour] = {}
@@ -181,25 +181,25 @@ class _Ladder:
                 if _may_be_traced(route) and has_spike(route.contour, route.offset):
                     around[number] = replace(route.with_wire_ways(), is_around=True)
         while around:
-            cut_job, troubles = self._try(self.routes | around)
+            tried, troubles = self._try(self.routes | around)
             if not troubles:
                 with suppress(UserError):
-                    refusal.refuse(cut_job.checked, cut_job.routes, self.machine)
-                    return cut_job
+                    refusal.refuse(tried.checked, tried.routes, self.machine)
+                    return tried
             around = {number: route for number, route in around.items() if number not in troubles} if troubles else {}
-        return job
+        return result
 
     def _try(self, routes: dict[int, PlannedContour]) -> tuple[CutResult | None, dict[int, _Trouble]]:
         """Cut some contours: what comes of it, and which do not go through."""
         numbers, program = list(routes), Program(list(routes.values()), self.title)
-        job = _tried(program, self.machine, self.progress)
-        if isinstance(job, ErrorLine):
-            refused = _refused(program, self.machine) or dict.fromkeys(range(len(numbers)), job)
+        result = _tried(program, self.machine, self.progress)
+        if isinstance(result, ErrorLine):
+            refused = _refused(program, self.machine) or dict.fromkeys(range(len(numbers)), result)
             return None, {numbers[index]: error for index, error in refused.items()}
         troubles: dict[int, _Trouble] = defaultdict(list)
-        for fault in job.checked.faults:
+        for fault in result.checked.faults:
             troubles[numbers[fault.route]].append(fault)
-        return job, troubles
+        return result, troubles
 
     def _climb(self, troubles: dict[int, _Trouble]) -> None:
         """Put each contour on the next rung that helps; one that has none is left or a `UserError`."""
