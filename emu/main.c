@@ -240,6 +240,14 @@ static int open_output(FILE **file, const char *path)
     return 0;
 }
 
+static int open_punch(session *s)
+{
+    if (s->o.punch && !(s->punch = tapefile_open(&s->tape, s->o.punch))) {
+        return complain(EXIT_USAGE, "%s: %s", s->o.punch, strerror(errno));
+    }
+    return 0;
+}
+
 /* Opens the debugger: --debug, --break, --trace. */
 static int set_debug(session *s)
 {
@@ -352,7 +360,7 @@ static int with_part(session *s)
     s->punch = s->o.punch_pty ? NULL : stdout;
     code = set_tape(s, s->o.part);
     code = code ? code : open_output(&s->paper, s->o.tty);
-    code = code ? code : open_output(&s->punch, s->o.punch);
+    code = code ? code : open_punch(s);
     complain_beside(s->paper == stderr ? s->board : NULL);
     code = code ? code : offer_line(s);
     code = code ? code : operator_part(s, answers ? (const char *)answers : "");
@@ -369,7 +377,7 @@ static int with_terminal(session *s)
     FILE *copy = NULL;
     int code = s->o.tape ? set_tape(s, s->o.tape) : 0;
     code = code ? code : open_output(&copy, s->o.tty);
-    code = code ? code : open_output(&s->punch, s->o.punch);
+    code = code ? code : open_punch(s);
     if (code) {
         return code;
     }
@@ -419,6 +427,11 @@ int main(int argc, char **argv)
         output_drive(&s);
         if (!output_flush(&s) && !known) {
             code = output_failure(&s);
+        }
+        const char *part = tapefile_close(&s.tape, s.punch);
+        if (part) {
+            remark("%s: what was punched so far, without the tape's end", part);
+            code = code ? code : EXIT_ERR;
         }
         if (s.o.stats) {
             output_stats(&s);

@@ -65,6 +65,8 @@ void output_punch(void *user, uint8_t byte)
     s->punched_nowhere = !s->punch && !s->o.punch_pty;
     if (s->punch) {
         put(s, byte, s->punch);
+        s->punch = tapefile_follow(&s->tape, s->punch, byte);
+        s->failed = s->punch ? s->failed : errno;
     }
     if (s->o.punch_pty) {
         terminal_print(&s->line, byte);

@@ -10,6 +10,7 @@
 #include "drawn.h"
 #include "options.h"
 #include "symbols.h"
+#include "tapefile.h"
 #include "terminal.h"
 
 #include <stdio.h>
@@ -28,6 +29,7 @@ typedef struct {
     bool running;                   /* the part has been loaded and RUN or END typed */
     pacer pacer;
     FILE *paper, *punch, *steps;    /* NULL: nowhere */
+    tapefile tape;                  /* that of --punch */
     FILE *picture;                  /* of the drive; NULL: none */
     drawn *drawn;                   /* its lines, */
     uint64_t steps_drawn;           /* and the steps in the file so far */

@@ -251,7 +251,9 @@ def said_by_the_board(session: str, reader: str = "", punched: list[str] | None 
             check=False,
         )
         if punched is not None:
-            lines = punch.read_text().replace("\0", "").rstrip("\x1a").splitlines()
+            # (what has no end of a tape is a part)
+            parts = [path.read_text() for path in (punch, punch.with_name("punch.part")) if path.exists()]
+            lines = "".join(parts).replace("\0", "").rstrip("\x1a").splitlines()
             punched.append("".join(f"{line}\n" for line in lines if line and not re.match("[BD]", line)))
     paper = done.stdout.decode().translate(dict.fromkeys(b"\r\0\x1a"))
     return paper[paper.index(">") :].removesuffix(">")

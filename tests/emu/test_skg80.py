@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import random
 import re
+import signal
 import subprocess
 import sys
 import time
@@ -478,3 +480,39 @@ def test_com_program_that_fails(skg80: Skg80, tmp_path: Path) -> None:
     big = tmp_path / "big.com"
     big.write_bytes(bytes(0xC701))
     assert says(complaint(skg80("--com", big), 2), big, "50944 bytes")
+
+
+def test_a_tape_has_its_name_when_it_has_its_end(skg80: Skg80, part: Part, tmp_path: Path) -> None:
+    """Until then the one before is there, and what was punched is a part; a link is followed; one that drives, or says
+    nothing, punches none."""
+    tape, link, kept = tmp_path / "tape", tmp_path / "link", tmp_path / "tape.part"
+    tape.write_bytes(b"old")
+    link.symlink_to(tape)
+    done = skg80(part(TWO_LINES + "40 A=1/0\n"), "--punch", link)
+    assert done.returncode == 1 and says(done.stderr.decode(), kept)
+    assert tape.read_bytes() == b"old" and kept.read_bytes() == BLOCKS[0] + b"D\r\n"
+    assert skg80(part(TWO_LINES + "40 END\n"), "--punch", link).returncode == 0
+    assert tape.read_bytes() == b"".join(BLOCKS) + STOPS and link.is_symlink() and not kept.exists()
+    assert skg80("--punch", tape, stdin=b"PRINT 1\n").returncode == 0
+    assert tape.read_bytes() == b"".join(BLOCKS) + STOPS and not kept.exists()
+    lines = "".join(line.partition(" ")[2] for line in TWO_LINES.splitlines(keepends=True)) + "END\n"
+    assert skg80("--punch", tape, stdin=(2 * lines).encode()).returncode == 0
+    punched = tape.read_bytes()
+    assert punched.startswith(b"".join(BLOCKS) + STOPS) and punched.count(STOPS) == 2 and punched.endswith(STOPS)
+    assert skg80("--punch", tape, stdin=b"10 END\nSAVE\n").returncode == 0
+    assert tape.read_bytes().startswith(b"10 END\r\n") and not kept.exists()
+
+
+@pytest.mark.parametrize("how", ["SIGTERM", "SIGHUP", "SIGKILL"])
+def test_ended_in_the_middle_of_a_tape(part: Part, tmp_path: Path, how: str) -> None:
+    """The old tape is there still, and whole lines of the new one as a part."""
+    tape, kept = tmp_path / "tape", tmp_path / "tape.part"
+    tape.write_bytes(b"old")
+    command = [SKG80, part(TWO_LINES + "40 GOTO 40\n"), "--punch", tape, "--tty", os.devnull]
+    with subprocess.Popen(command, stdin=subprocess.DEVNULL) as process:
+        while not (kept.exists() and kept.read_bytes() == BLOCKS[0]):
+            assert process.poll() is None
+            time.sleep(0.01)
+        process.send_signal(getattr(signal, how))
+    assert process.returncode == -getattr(signal, how)
+    assert tape.read_bytes() == b"old" and kept.read_bytes() == BLOCKS[0]

@@ -52,6 +52,8 @@ def listed(*numbers: int, blocks: list[bytes] = BLOCKS) -> Listing:
         (CAD_TAPE, listed(1, 2, 4, 5), "tape-not-listed"),
         (CAD_TAPE, listed(1, 2, 3, 4), "tape-not-listed"),
         (b"N1G17G21\r\nN2G0X0Y0\r\nN3M30\r\n", Listing(), None),
+        (b"10 FROM O\r\n\0\0\x0020 END\r\n\0\0\x1a", Listing(), None),
+        (CAD_TAPE[:30] + b"\x1a", Listing(), "tape-not-whole"),
         (b"N1G17G21\r\nN3G0X0Y0\r\nN4M30\r\n", Listing(), "tape-not-in-order"),
         (b"N1G17G21\r\nN2G0XY0\r\nN3M30\r\n", Listing(), "tape-not-in-order"),
         (b"N1G17G21\r\nN2G0X0Y0\r\n", Listing(), "tape-no-end"),

@@ -17,6 +17,8 @@ from skg.terminal import remark
 _LISTED = re.compile(rb"(\d{4}) (B\d+B\d+B\d+G[XY](?:L|NR|SR)[1-4])")
 #: A block of the ROM that mills.
 _MILLED = re.compile(rb"N(\d+)((?:[GXYZIJPFSTM]-?\d*\.?\d+)+)")
+#: A line of a program that SAVE punches, which ends with ctrl-Z.
+_SAVED = re.compile(rb"\d{1,4} ")
 #: The number of a block behind which comes number 1 again.
 _LAST_NUMBER = 9999
 
@@ -42,11 +44,13 @@ class Listing:
 def wrong_with(data: bytes, listing: Listing) -> Finding | None:
     """The reason why what was punched is no whole tape, or not the one that the paper lists; None: it is."""
     data = data.strip(b"\0")
+    if data.endswith(b"\x1a") and all(map(_SAVED.match, data.replace(b"\0", b"").splitlines()[:-1])):
+        return None
     if data.startswith(b"N"):
         return _wrong_with_milling(data)
     _, faults = scan(data)
     if faults:
-        return Finding("tape-not-whole", detail=str(faults[0]))
+        return Finding("tape-not-whole", number=faults[0].block, detail=faults[0].why)
     blocks = [each for each in data.split(b"\r\n") if each.startswith(b"B")]
     if listing.is_broken or listing.blocks and listing.blocks != blocks:
         return Finding("tape-not-listed", count=len(blocks), listed=len(listing.blocks))
