@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from skg.errors import UserError
 from skg.ref import real
 from skg.ref.cutter import MOST_ITEMS, Cutter
 from skg.ref.fit import FittedCurve, Node
@@ -185,7 +184,7 @@ def fitted_runs(source: str, mills: bool = False) -> list[Run]:
     error = machine.load(source) or machine.run()
     if error:
         number, line = error
-        raise UserError(f"the program ends in ERR {number:02d}" + (f" LINE {line}" if line is not None else ""))
+        raise ValueError(f"the program ends in ERR {number:02d}" + (f" LINE {line}" if line is not None else ""))
     return machine.runs
 
 

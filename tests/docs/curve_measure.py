@@ -13,7 +13,6 @@ import numpy as np
 from curve_fitted import Biarcs, FittedPiece, Run, pieces
 from true_curves import TRUE_CURVES, TrueCurve
 
-from skg.errors import UserError
 from skg.ref.fit import MOST_PASSED, Node
 from skg.ref.real import ZERO, Real
 from skg.ref.values import Point
@@ -78,7 +77,7 @@ def true_curve(part: Path, nodes: list[Node]) -> TrueCurve | None:
         return None
     places = np.array([complex(n.point.x, n.point.y) for n in nodes])
     if len(places) != len(true.nodes) or np.max(np.abs(places - true.at(true.nodes))) > ON_CURVE:
-        raise UserError(f"{part}: its nodes are not those of the {true.name}")
+        raise ValueError(f"{part}: its nodes are not those of the {true.name}")
     return true
 
 

@@ -17,7 +17,6 @@ from curve_tables import measured, runs, saved
 from facthelp import pattern
 from true_curves import TRUE_CURVES
 
-from skg.errors import UserError
 from skg.ref import fit, real
 from skg.ref import run as reference
 from skg.ref.cutter import MOST_ITEMS
@@ -146,12 +145,12 @@ def test_jump_is_seen() -> None:
 def test_nodes_beside_the_true_curve_are_refused(tmp_path: Path) -> None:
     part = tmp_path / "fit-parabola.skg"
     part.write_text(next(p for p in PARTS if p.stem == part.stem).read_text().replace("D*D/60", "D*D/61"))
-    with pytest.raises(UserError, match=pattern("parabola")):
+    with pytest.raises(ValueError, match=pattern("parabola")):
         measure(part, fitted_runs(part.read_text())[0])
 
 
 def test_program_that_fails_is_refused() -> None:
-    with pytest.raises(UserError, match="ERR 05 LINE 10"):
+    with pytest.raises(ValueError, match="ERR 05 LINE 10"):
         fitted_runs("10 A=1/0")
 
 
