@@ -93,7 +93,7 @@ IMAGES = {
     "skg-rc2014-ram": Image(map="map_rc2014_ram", restarts=False, forms=(".hex",), **one_line("ports_rc2014")),
     "skg-minimax8085": Image(map="map_rc2014", **one_line("ports_minimax8085", "io_8251")),
     "skg-rcbus8085": Image(map="map_rc2014", **one_line("ports_rcbus8085")),
-    "skg-8085": Image(map="map_rc2014", ports=("ports_sid", "io_sid"), punch=("io_tty",)),
+    "skg-8085": Image(map="map_rc2014", ports=("ports_sid", "io_sid"), punch=("hold_sid", "io_tty")),
     "skg-nodrift": Image(post=("round", "arc_nodrift", "tape")),
     "skg-mill": MILL,
     "skg-grbl": replace(MILL, post=("io_ok", *MILL.post[1:]), start=("reset", "keep_none")),

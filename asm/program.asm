@@ -1,6 +1,6 @@
 ; program.asm - the lines of the program: how they are kept, their numbers, LIST
 ; Offers: STORE FINDLN PLINE LOADDE SUMREC VARSUM LINENO OPTLN LNEND SLIST
-; Uses:   [ports] [punch] float lexer monitor parser start value
+; Uses:   [punch] float lexer monitor parser start value
 ; Room:   290 bytes
 ;
 ; A program line: length of the record, line number (low byte first), tokens, 00, a byte

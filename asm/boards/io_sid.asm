@@ -1,9 +1,9 @@
 ; io_sid.asm - the teletype on the 8085's own lines, SID and SOD, bit by bit: a board without a serial chip
-; Offers: BDINIT PAPER POLL LISTEN LETGO ENDLIN LEXTOK LINGAP
-; Uses:   [ports] [punch] decimal io start
-; Room:   185 bytes
+; Offers: SIDIN BDINIT PAPER POLL SIDREC
+; Uses:   [ports] [punch] start
+; Room:   155 bytes
 ;
-; There is no receiver that keeps a character: one is heard while the board waits for it, in LISTEN.  Whenever the line is
+; There is no receiver that keeps a character: one is heard while the board waits for it (hold_sid.asm).  Whenever the line is
 ; seen low elsewhere somebody types who is not waited for.  That is a break while a statement works, and at the prompt a lost
 ; character.  Nothing holds the sender.
 
@@ -88,20 +88,6 @@ SIDQU2: DB      SIDIN
         POP     D
         RET
 
-; LISTEN - hears a character that comes, looks for a break
-; In, Out: as BREAK   Clobbers nothing else
-LISTEN: LXI     H,KEYB
-        MOV     A,M
-        ORA     A
-        JNZ     LISTE1
-        DB      SIDIN
-        ORA     A
-        CP      SIDREC
-        MOV     A,M
-LISTE1: CPI     CCTLC
-        RNZ
-        JMP     BROKEN
-
 ; SIDREC - a start bit has been seen: receives.  Without a stop bit it is a break
 ; In:  HL-> KEYB   Out: KEYB = the character without parity, 0 for ctrl-S; ctrl-C for a break   Clobbers A
 SIDREC: PUSH    B
@@ -128,22 +114,3 @@ SIDRE2: POP     B
         RET
 SIDBRK: MVI     M,CCTLC
         JMP     SIDQUI
-
-; LETGO - looks for a break while a program runs
-; In, Out: as BREAK
-LETGO   EQU BREAK
-
-; ENDLIN - the line has come
-; Clobbers A
-ENDLIN  EQU CRLF
-
-; LEXTOK - LEXCH at a token's beginning; looks whether somebody types on
-; In, Out: as LEXCH   Clobbers nothing else
-LEXTOK: PUSH    H
-        CALL    POLL
-        POP     H
-        JMP     LEXCH
-
-; LINGAP - behind a line of LIST and SAVE: nothing
-; Clobbers A
-LINGAP  EQU CHECK

@@ -1,6 +1,6 @@
 ; io_tty.asm - punch and reader are the teletype's own, switched by DC1 to DC4
 ; Offers: BDREAD SLOAD PUNON BDPUN PUNOFF BDREST BDOFF
-; Uses:   [ports] [punch] [start] io start
+; Uses:   [punch] [start] io start
 ; Room:   43 bytes
 
 ; BDREAD - a character from the reader: what the keyboard has sent

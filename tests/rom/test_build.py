@@ -216,6 +216,15 @@ def memory(name: str) -> bytes:
     return bytes(labels(name)["ORIGIN"]) + data
 
 
+def without_lines(name: str) -> bytes:
+    """The image as it lies in memory; where the 8085's own lines are looked at or set, NOP, as an 8080 takes them."""
+    image = bytearray(memory(name))
+    for line in listed(name):
+        if line.mnemonic == "DB" and line.operands.strip() in ("SIDIN", "SODOUT"):
+            image[line.at] = 0
+    return bytes(image)
+
+
 def listed(name: str) -> list[Line]:
     """Lines of the assembler's listing that made bytes."""
     names = "|".join({"DB", "DW", "DS"} | {text.split()[0] for text, _ in OPCODES.values()})
@@ -290,7 +299,7 @@ def test_the_ram_image_is_the_roms() -> None:
 def walked(name: str, planted: dict[int, bytes] | None = None) -> Walk:
     """The walk through an image, into which bytes are planted at some addresses: from the restarts and tables on,
     and from what the listing says are instructions."""
-    image = bytearray(memory(name))
+    image = bytearray(without_lines(name))
     for at, data in (planted or {}).items():
         image[at : at + len(data)] = data
     walk = Walk(bytes(image), labels(name), labels(name)["ORIGIN"])
@@ -344,7 +353,7 @@ def test_a_walk_that_finds_nothing_has_failed() -> None:
 
 @pytest.mark.parametrize("name", VARIANTS)
 def test_only_8080_code_is_reached(name: str) -> None:
-    image = memory(name)
+    image = without_lines(name)
     lines = listed(name)
     walk = Walk(image, labels(name), labels(name)["ORIGIN"])
     walk.follow(starting(name, walk))
@@ -353,7 +362,9 @@ def test_only_8080_code_is_reached(name: str) -> None:
     strays = walk.code - instructions
     skips = (0xFE, 0x06, 0x01, 0x3A)  # CPI, MVI B, LXI B, LDA: their operand is the instruction that is skipped
     restarts = [0xC7 + 8 * n for n in range(1, 8)]  # written as data: DB CALC,...
-    assert all(image[at] in (*skips, *restarts) for at in strays), sorted(map(hex, strays))
+    changed = {at for at, (was, now) in enumerate(zip(memory(name), image, strict=True)) if was != now}
+    assert bool(changed) == (name == "skg-8085")
+    assert all(image[at] in (*skips, *restarts) for at in strays - changed), sorted(map(hex, strays))
     # What no jump leads to by name (an address loaded into a pair and pushed) is little.
     assert len(instructions - walk.code) < len(instructions) / 20
     assert not walk.code & walk.bytecode

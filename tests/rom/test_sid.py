@@ -1,7 +1,8 @@
 """roms/skg-8085.bin on an 8085's own lines: SID and SOD are followed bit by bit, with the 8085's cycles.
 
-The emulator is an 8080, for which RIM and SIM do nothing. In the file of these lines each instruction is carried out by itself: its
-cycles are Intel's for the 8085, RIM gets the level of SID, SIM's level is written down. Elsewhere time does not matter.
+The emulator is an 8080, for which RIM and SIM do nothing. Where these stand each instruction is carried out by itself:
+its cycles are Intel's for the 8085, RIM gets the level of SID, SIM's level is written down. Elsewhere time does not
+matter.
 """
 
 from __future__ import annotations
@@ -17,8 +18,8 @@ BIT = CLOCK / BAUD
 RIM, SIM, CTRL_C = 0x20, 0x30, "\x03"
 #: Cycles of the 8085's instructions that stand there: taken, not taken.
 CYCLES = {
-    0x01: 10, 0x11: 10, 0x21: 10, 0xC5: 12, 0xD5: 12, 0xC1: 10, 0xD1: 10, 0xE5: 12, 0xE1: 10, 0x1B: 6, 0xF3: 4, 0x17: 4, 0x1F: 4,
-    0x37: 4, 0xFE: 7, 0xE6: 7, 0x36: 10, 0x7E: 7, 0x77: 7, 0xC3: 10, 0xC9: 10, 0xCD: 18, RIM: 4, SIM: 4,
+    0x01: 10, 0x11: 10, 0x21: 10, 0xC5: 12, 0xD5: 12, 0xC1: 10, 0xD1: 10, 0xE5: 12, 0xE1: 10, 0x1B: 6, 0xF3: 4, 0x17: 4,
+    0x1F: 4, 0x37: 4, 0xFE: 7, 0xE6: 7, 0x36: 10, 0x7E: 7, 0x77: 7, 0xC3: 10, 0xC9: 10, 0xCD: 18, RIM: 4, SIM: 4,
 }  # fmt: skip
 JUMPS, RETURNS, CALLS = (
     {base | code << 3 for code in range(8)} for base in (0xC2, 0xC0, 0xC4)
@@ -47,7 +48,7 @@ class Line:
     def __init__(self) -> None:
         self.machine = Machine((ROOT / "roms" / "skg-8085.bin").read_bytes(), 8, board="rc2014")
         names = labels("skg-8085")
-        self.room = range(names["BDINIT"], names["LEXTOK"])
+        self.room = {*range(names["BDINIT"], names["SIDBRK"] + 5), *range(names["LISTEN"], names["LEXTOK"])}
         self.entries = {names[name] for name in ("BDINIT", "PAPER", "POLL", "LISTEN")}
         for entry in self.entries:
             self.machine.set_break(entry)
@@ -102,7 +103,7 @@ class Line:
                 self.now += self.machine.cycles - since
 
     def type(self, text: str, pause: float = 30.0, drift: float = 1.0) -> None:
-        """Type characters, the next one `pause` bits behind the beginning of the last; the rate is wrong by a factor."""
+        """Type characters, each `pause` bits behind the beginning of the last; the rate is wrong by a factor."""
         for count, character in enumerate(text):
             self.typed.append((self.now + (count * pause + 3.3) * BIT, BIT * drift, character))
 
