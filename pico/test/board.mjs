@@ -34,8 +34,8 @@ export class Board {
     return this.host.punch.received;
   }
 
-  /** Runs until the paper ends with a prompt behind what has been seen so far. */
-  prompt(from = 0, ms = 12000) {
+  /** Runs until the paper ends with a prompt behind what has been seen so far; a gear of 600 blocks takes a minute of the chip. */
+  prompt(from = 0, ms = 300000) {
     const done = () => this.paper.length > from && /[\n\x1a]>$/.test(this.paper) && !this.host.tty.sending.length;
     assert.ok(this.chip.run(ms, done), `no prompt: ${JSON.stringify(this.paper.slice(-200))}`);
   }
