@@ -14,6 +14,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import zipfile
 from collections.abc import Callable
 from functools import cache
@@ -198,36 +199,81 @@ def check_windows_wheel(version: str, encoding: str) -> str:
     return f"{tried}; Python {version}, code page {encoding}"
 
 
-def check_windows_folder() -> str:
-    """The zip for Windows, unpacked under a Chinese path with a blank, in Chinese; all commands through skg.exe."""
+#: Where the zip for Windows is unpacked under wine; the locale of a workshop.
+_UNPACKED = "C:\\\u7528\u6237\\SKG 1.0"
+
+
+@cache
+def unpacked() -> dict[str, str]:
+    """Unpack the zip for Windows under a Chinese path with a blank, for reading alone: the environment to run it in."""
     wine("reg")
-    root = BUILD / "wine" / "drive_c" / "\u7528\u6237"
+    windows = BUILD / "wine" / "drive_c"
+    root = windows / "\u7528\u6237"
+    for folder in root.rglob("*"):
+        folder.chmod(0o755)
     shutil.rmtree(root, ignore_errors=True)
     with zipfile.ZipFile(found("skg-windows-*.zip")) as packed:
-        size = sum(entry.file_size for entry in packed.infolist())
         packed.extractall(root)
     inside = next(root.iterdir()).rename(root / "SKG 1.0")
-    # (all its folders take no files: nothing is written beside the program)
     for folder in (inside, *(each for each in inside.rglob("*") if each.is_dir())):
         folder.chmod(0o555)
-    # (of Windows itself; wine's own has not all that numpy wants)
-    shutil.copy(
-        maven.python("3.14", "windows-x86_64") / "ucrtbase.dll", BUILD / "wine" / "drive_c" / "windows" / "system32"
-    )
-    here = "C:\\\u7528\u6237\\SKG 1.0"
+    # (a part of Windows; wine's own has not all that numpy wants)
+    shutil.copy(maven.python("3.14", "windows-x86_64") / "ucrtbase.dll", windows / "windows" / "system32")
+    return {"WINEDLLOVERRIDES": "ucrtbase=n", **locale(_LOCALES["cp936"])}
+
+
+def check_windows_folder() -> str:
+    """The zip for Windows in Chinese: all commands through skg.exe, the menus of Explorer."""
+    speech, program = unpacked(), f"{_UNPACKED}\\skg.exe"
     folder = trial_folder("windows folder")
-    speech = {"WINEDLLOVERRIDES": "ucrtbase=n", **locale(_LOCALES["cp936"])}
-    words = [f"Z:{ROOT}/release/trial.py", f"Z:{folder}", "--skg", f"{here}\\skg.exe"]
-    run(*wine(f"{here}\\python\\python.exe", *words, **speech))
+    words = [f"Z:{ROOT}/release/trial.py", f"Z:{folder}", "--skg", program]
+    run(*wine(f"{_UNPACKED}\\python\\python.exe", *words, **speech))
     tried = compare_trials(folder.name, folder, "cp936")
     menu = r"HKCU\Software\Classes\SystemFileAssociations\.dxf\shell\SKG\command"
-    run(*wine(f"{here}\\skg.exe", "--register", **speech))
+    run(*wine(program, "--register", **speech))
     if "skg.exe" not in run(*wine("reg", "query", menu, "/ve")):
         raise Failed("skg.exe --register has put nothing into the menus")
-    run(*wine(f"{here}\\skg.exe", "--unregister", **speech))
+    run(*wine(program, "--unregister", **speech))
     if subprocess.run(wine("reg", "query", menu), capture_output=True).returncode == 0:
         raise Failed("skg.exe --unregister has left the menus as they were")
+    with zipfile.ZipFile(found("skg-windows-*.zip")) as packed:
+        size = sum(entry.file_size for entry in packed.infolist())
     return f"{tried}; {found('skg-windows-*.zip').stat().st_size / 1e6:.0f} MB, {size / 1e6:.0f} unpacked"
+
+
+def check_windows_window() -> str:
+    """A drawing dropped onto skg.exe: a window that quits; of one that is not there a message, and exit code 2."""
+    needed("xdotool")
+    speech = {"DISPLAY": ":77", **unpacked()}
+    folder = trial_folder("windows window")
+    with subprocess.Popen([needed("Xvfb"), ":77", "-screen", "0", "800x600x24"], stderr=subprocess.DEVNULL) as screen:
+        try:
+            for drawing, key, expected in (("\u652f\u67b6.dxf", "alt+q", 0), ("nothing.dxf", "Return", 2)):
+                command = wine(f"{_UNPACKED}\\skg.exe", f"Z:{folder}/{drawing}".replace("/", "\\"), **speech)
+                code = _typed_at(command, key)
+                if code != expected:
+                    raise Failed(f"skg.exe {drawing}: exit {code}")
+        finally:
+            screen.terminate()
+    return "a drawing is shown, and the window quits; one that is not there is told"
+
+
+def _typed_at(command: list[str], key: str) -> int:
+    """Run a program, and press a key in its windows until it ends: its exit code."""
+    variables = os.environ | {"DISPLAY": ":77"}
+    seen = 0
+    with subprocess.Popen(
+        command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    ) as one:
+        while one.poll() is None:
+            time.sleep(1)
+            words = ["xdotool", "search", "--name", "SKG"]
+            for window in subprocess.run(words, env=variables, capture_output=True, text=True).stdout.split():
+                seen += 1
+                subprocess.run(["xdotool", "windowfocus", window, "key", key], env=variables, capture_output=True)
+    if not seen:
+        raise Failed("skg.exe has shown no window")
+    return one.returncode
 
 
 def locale(name: str) -> dict[str, str]:
@@ -353,6 +399,7 @@ def main() -> None:
         ("windows wheel, 3.12, wine", lambda: check_windows_wheel("3.12", "cp1252")),
         ("windows wheel, 3.14, wine in Chinese", lambda: check_windows_wheel("3.14", "cp936")),
         ("windows folder, wine in Chinese", check_windows_folder),
+        ("windows folder, its window", check_windows_window),
         ("skg80, linux", lambda: check_skg80("skg80-*-linux-x86_64", lambda program: [str(program)])),
         (
             "skg80, wine in Chinese",

@@ -11,7 +11,7 @@ release: $(RELEASE_VENV)/.stamp emu tools venv web-modules pico
 	$(RELEASE_PY) release/build.py
 
 # Wine runs what is for Windows, qemu what is for ARM, Debian's chromium the page. Maven brings more versions of Python.
-RELEASE_TOOLS := wine wine64 qemu-user chromium maven locales
+RELEASE_TOOLS := wine wine64 xvfb xdotool qemu-user chromium maven locales
 release-tools:
 	@dpkg -s $(RELEASE_TOOLS) >/dev/null 2>&1 || { [ "$$(id -u)" = 0 ] && apt-get update -q \
 		&& DEBIAN_FRONTEND=noninteractive apt-get install -qy --no-install-recommends $(RELEASE_TOOLS); } \

@@ -284,6 +284,7 @@ static INT_PTR CALLBACK on_message(HWND dialog, UINT message, WPARAM first, LPAR
 static int show_drawing(const wchar_t *file) {
     static wchar_t line[32768];
     FreeConsole();
+    is_typed = false;
     wcsncpy(drawing, file, 32767);
     SECURITY_ATTRIBUTES inherited = {.nLength = sizeof inherited, .bInheritHandle = FALSE};
     HANDLE their_input, their_output;

@@ -86,6 +86,18 @@ def test_wire_on_for_cuts_alone(run: Run, tmp_path: Path) -> None:
     assert run("gcode", "--back", part, "--machine", "grbl-wire").output.count("D\n") >= 5
 
 
+def test_what_is_written_checks_right(run: Run, tmp_path: Path) -> None:
+    """A drawing with two contours, for each machine that ships."""
+    page = drawing()
+    polygon([(0, 0), (30, 0), (30, 20), (0, 20)], page)
+    page.modelspace().add_circle((10, 10), 4)
+    path, part = saved(page, tmp_path), tmp_path / "part.nc"
+    for name in names():
+        run("cut", path, "-o", part, "--offset", 0.1, "--machine", name)
+        said = run("check", part, "--machine", name)
+        assert said.exit_code == 0 and says(said.output, "nothing wrong"), (name, said.output)
+
+
 def test_numbers_and_arcs(run: Run, tmp_path: Path) -> None:
     """Radii, centres from the origin, two decimals, relative: all come back where they were."""
     machine = tmp_path / "my.toml"

@@ -17,6 +17,10 @@ _STOP, _END = "M0", "M30"
 def understood(text: str, dialect: GcodeDialect) -> tuple[str, tuple[Finding, ...]]:
     """A program of a dialect without the lines that only this has, as many lines; and notes on it."""
     lines = [_NUMBER.sub("", line.strip(), count=1) for line in text.splitlines()]
+    if dialect.compensation and dialect.compensation.define:
+        # (between head and start)
+        define = re.compile(_pattern(dialect.compensation.define))
+        lines = ["" if define.fullmatch(_plain(line)) else line for line in lines]
     first = _after(lines, (*dialect.head, *dialect.start))
     last = len(lines) - _after(lines[::-1], dialect.foot[::-1])
     for index in (*range(first), *range(max(first, last), len(lines))):

@@ -60,7 +60,8 @@ class _Reader:
         self.blocks = 0
         self.begun = False
         self.home: Spot = (0, 0)
-        self.fed = self.has_rapids = False
+        # (a control without F words has its feed set by hand)
+        self.fed, self.has_rapids = dialect is not None and not dialect.feed, False
         # Gone to a place of the machine's own, nobody knows where in the plane.
         self.is_away = False
         # The origin of places after a G92 in mid-program; `position` goes on from the first one.
