@@ -155,9 +155,12 @@ def rom_list(images: list[str]) -> str:
     """Which image is for which machine, as README.md has it; an image that is not there is an error."""
     rows: dict[str, str] = {}
     for machine, files in re.findall(r"^\| (.+?) \| (`roms/.*) \|$", README.read_text(encoding="utf-8"), re.M):
-        plain = re.sub(r" ?\(?\[([^]]*)\]\([^)]*\)\)?", "", machine).replace("`", "")
-        for file in re.findall(r"`roms/([\w.-]+)`", files):
-            rows[file] = f"{rows[file]}; {plain}" if file in rows else plain
+        # (links are of no use in a text; a row of two machines has two files)
+        plain = re.sub(r" ?\((?:\[[^]]*\]\([^)]*\)(?:, )?)+\)", "", machine).replace("`", "").replace("roms/", "")
+        named = re.findall(r"`roms/([\w.-]+)`", files)
+        each = plain.split("; ") if len(named) > 1 else [plain]
+        for file, one in zip(named, each, strict=True):
+            rows[file] = f"{rows[file]}; {one}" if file in rows else one
     rows["skg.sym"] = "names of the standard ROM, for skg80 --debug"
     rows[PICO.name] = "a Raspberry Pi Pico: drop the file on it"
     twins = {f"{Path(file).stem}.hex" for file in rows if file.endswith(".bin")}
