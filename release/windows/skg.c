@@ -45,7 +45,7 @@ static const words_t ENGLISH = {
     .unregistered = L"\"Open with SKG\" is out of the menus.",
     .open_with = L"Open with SKG",
     .starting = L"Starting \x2026",
-    .running = L"The drawing is in the browser. SKG ends ten minutes after its page was closed.",
+    .running = L"The page is in the browser. SKG ends ten minutes after it was closed.",
     .open = L"&Open in browser",
     .copy = L"&Copy address",
     .quit = L"&Quit",
@@ -63,7 +63,7 @@ static const words_t CHINESE = {
     .unregistered = L"右键菜单里的“用 SKG 打开”已去掉。",
     .open_with = L"用 SKG 打开",
     .starting = L"正在启动……",
-    .running = L"图纸在浏览器里。网页关闭十分钟后，SKG 自动结束。",
+    .running = L"网页在浏览器里。关闭网页十分钟后，SKG 自动结束。",
     .open = L"在浏览器中打开(&O)",
     .copy = L"复制地址(&C)",
     .quit = L"退出(&Q)",
@@ -106,6 +106,7 @@ static int fail(const wchar_t *what, DWORD error) {
     static wchar_t text[34000];
     wchar_t reason[512] = L"";
     FormatMessageW(FORMAT_MESSAGE_FROM_SYSTEM | FORMAT_MESSAGE_IGNORE_INSERTS, NULL, error, 0, reason, 512, NULL);
+    reason[wcscspn(reason, L"\r\n")] = 0;
     swprintf(text, sizeof text / sizeof *text, L"%ls\r\n\r\n%lspython\\python.exe: %ls (%lu)", what, folder, reason, error);
     tell(MB_ICONERROR, text);
     return NOT_RUN;
