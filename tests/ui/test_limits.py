@@ -26,7 +26,9 @@ ROUTES = [
     ("GET", "/api/run/1"),
     ("DELETE", "/api/run/1"),
     ("GET", "/api/run/1/tape"),
+    ("GET", "/api/run/1/from/2"),
     ("POST", "/api/save"),
+    ("POST", "/api/take"),
 ]
 
 

@@ -494,3 +494,55 @@ def test_what_is_saved_is_not_kept(serve: Callable[[Path], Server], tmp_path: Pa
     assert page.call("POST", "/api/save", job).status == 409 and server.session.keep()
     page.done("POST", "/api/save", job | {"overwrite": True})
     assert server.session.keep() is None
+
+
+def test_kept_and_offered(serve: Callable[[Path], Server], tmp_path: Path) -> None:
+    """What is set is in a file a moment later, and offered when the drawing is opened again; saved, it is gone."""
+    path, kept = plate(tmp_path), tmp_path / "plate.unsaved.job.toml"
+    server = serve(path)
+    page = Page(server)
+    state = page.state()
+    assert state["offers"] == []
+    state |= page.put(state, machine={"wire": 0.2})
+    until(lambda: kept.exists() and "wire = 0.2" in kept.read_text())
+    # (the server ends without a word)
+    server.session.close()
+    page = Page(serve(path))
+    state = page.state()
+    assert state["offers"] == [kept.name] and "machine" not in state["job"]
+    assert page.call("POST", "/api/take", {"name": "other.toml", "take": True}).status == 400
+    state = page.done("POST", "/api/take", {"name": kept.name, "take": True})
+    assert state["job"]["machine"] == {"wire": 0.2} and state["offers"] == []
+    assert page.done("POST", "/api/save", {"run": None, "what": ["job"]})["written"] == ["plate.job.toml"]
+    assert not kept.exists()
+    # the job beside the drawing
+    page = Page(serve(path))
+    assert page.state()["offers"] == ["plate.job.toml"]
+    state = page.done("POST", "/api/take", {"name": "plate.job.toml", "take": False})
+    assert state["offers"] == [] and "machine" not in state["job"] and (tmp_path / "plate.job.toml").exists()
+
+
+def test_name_and_style_of_what_is_saved(saving: tuple[Page, Json, int], tmp_path: Path) -> None:
+    page, state, _ = saving
+    number, run = page.cut(state["rev"])
+    tape = page.get(f"/api/run/{number}/tape").body
+    body = {"run": number, "what": ["tape", "job"], "name": "DIE-1", "style": "numbered"}
+    written = page.done("POST", "/api/save", body)["written"]
+    assert written == ["plate.job.toml", "DIE-1.nodrift.3b"]
+    styled = tmp_path / "DIE-1.nodrift.3b"
+    assert styled.read_bytes().startswith(b"N   1: B") and skg_style(styled) == tape
+    for bad in ({"name": "../x"}, {"name": ".x"}, {"style": "none"}):
+        assert page.call("POST", "/api/save", body | bad | {"overwrite": True}).status == 400
+    # the rest of the tape, from a block on
+    lines = tape.split(b"\r\n")
+    begins = [at for at, line in enumerate(lines) if line.startswith(b"B")]
+    rest = page.get(f"/api/run/{number}/from/5").body
+    assert rest.split(b"\r\n") == lines[begins[4] :]
+    for block in (0, len(begins) + 1):
+        assert page.get(f"/api/run/{number}/from/{block}").status == 400
+
+
+def skg_style(path: Path) -> bytes:
+    """A tape as the board punches it."""
+    skg("tape", path, "-o", path.with_name("punch.3b"), "--style", "punch")
+    return path.with_name("punch.3b").read_bytes()

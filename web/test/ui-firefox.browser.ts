@@ -52,6 +52,7 @@ describe("skg ui in firefox", { skip: existsSync(FIREFOX) ? false : "firefox-esr
     await page.keyboard.press("End");
     await page.waitForFunction(() => /block 94 of 94/.test(document.getElementById("walked")?.textContent ?? ""));
     await page.click("#save");
+    await page.click("#save-yes");
     await page.waitForFunction(() => /Saved beside/.test(document.querySelector("#message span")?.textContent ?? ""));
     const tape = file("bracket.nodrift.3b");
     assert.ok(tape.equals(cutByCommand(folder, "bracket.dxf", "--wire", "0.18", "--gap", "0.01")));

@@ -147,9 +147,9 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await type(page, "field-wire", "0.18");
     await type(page, "field-gap", "0,01");
     await cut(page);
-    await page.click("#save-what summary");
-    await page.uncheck("#save-what [value=job]");
-    const [download] = await Promise.all([page.waitForEvent("download"), page.click("#save")]);
+    await page.click("#save");
+    for (const what of ["job", "sheet"]) await page.uncheck(`#save-as [value=${what}]`);
+    const [download] = await Promise.all([page.waitForEvent("download"), page.click("#save-yes")]);
     const tape = readFileSync(await download.path());
     assert.match(download.suggestedFilename(), /^bracket.*\.3b$/);
     assert.ok(tape.equals(cutByCommand(folder, "bracket.dxf", "--wire", "0.18", "--gap", "0.01")));
@@ -169,11 +169,17 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await row(page, "opening 12 × 6").locator(".check").click();
     await page.waitForSelector("[role=treeitem][aria-checked=false]");
     await cut(page);
+    // (name and style are asked for once; tape, sheet and job are written together)
     await page.click("#save");
+    await page.fill("#save-name", "a/b");
+    await page.click("#save-yes");
+    await says(page, "#save-hint", /without a folder/);
+    await page.fill("#save-name", "bracket");
+    await page.click("#save-yes");
     await message(page, /Saved beside the drawing/);
     const names = ((await page.textContent("#message span")) ?? "").replace(/.*: /, "").split(", ").sort();
     const [job, tape] = names as [string, string];
-    assert.deepEqual(names, ["bracket.job.toml", "bracket.nodrift.3b"]);
+    assert.deepEqual(names, ["bracket.job.toml", "bracket.nodrift.3b", "bracket.pdf"]);
     assert.ok(file(tape).equals(cutByCommand(folder, job)));
     writeFileSync(join(folder, tape), "mine");
     await page.click("#save");
@@ -289,6 +295,8 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await page.waitForSelector(".field.own #field-wire");
     await page.waitForSelector("#outcome.good");
     await press("Control+s");
+    await page.waitForSelector("#save-as[open]");
+    await press("Enter");
     await message(page, /Saved beside the drawing/);
     assert.ok(file("bracket.job.toml").includes("entry"));
     // the tree, too
@@ -662,6 +670,61 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await page.keyboard.press("Escape");
     await page.waitForSelector("#drawer", { state: "hidden" });
     await context.close();
+  });
+
+  test("a job beside the drawing is offered; the rest of a tape from a block on, and where the wire must stand", async () => {
+    const { url, file } = await start();
+    const { page, context } = await visit(url);
+    await drawn(page);
+    await type(page, "field-wire", "0.18");
+    await cut(page);
+    await page.click("#save");
+    await page.check("#save-eight");
+    await value(page, "save-name", "BRACKET");
+    await page.selectOption("#save-style", "numbered");
+    await page.click("#save-yes");
+    await message(page, /Saved beside the drawing/);
+    assert.match(file("BRACKET.3b").toString(), /^N {3}1: B/);
+    await page.click("#tab-blocks");
+    await page.locator("#list [role=option]").nth(4).click();
+    await says(page, "#go-on-save", /block 5$/);
+    await shot(page, "go-on");
+    const [download] = await Promise.all([page.waitForEvent("download"), page.click("#go-on-save")]);
+    assert.equal(download.suggestedFilename(), "bracket.from5.nodrift.3b");
+    const [, ...rest] = readFileSync(await download.path())
+      .toString()
+      .split(/N +\d+: /);
+    assert.deepEqual(
+      rest,
+      file("BRACKET.3b")
+        .toString()
+        .split(/N +\d+: /)
+        .slice(-rest.length),
+    );
+    // (the wire must stand where the blocks before have brought it)
+    const sums = file("BRACKET.3b")
+      .toString()
+      .split(/\r\n/)
+      .slice(0, 4)
+      .map((line) => /B +(\d+) B +(\d+) B +\d+ G([XY]) (L)([1-4])/.exec(line));
+    if (sums.every(Boolean)) {
+      const way = sums.map((found) => {
+        const [, u, v, , , quadrant] = found as RegExpExecArray;
+        const [right, up] = [quadrant === "1" || quadrant === "4", quadrant === "1" || quadrant === "2"];
+        return [(right ? 1 : -1) * Number(u), (up ? 1 : -1) * Number(v)];
+      });
+      const [dx, dy] = [0, 1].map((axis) => way.reduce((sum, each) => sum + (each[axis] as number), 0) / 1000);
+      await says(page, "#go-on-way", new RegExp(`${dx?.toFixed(3)} mm in x, ${dy?.toFixed(3)} mm`));
+    }
+    await context.close();
+    const again = await start("bracket.dxf", BRACKET, true, { "bracket.job.toml": file("bracket.job.toml") });
+    const other = await visit(again.url);
+    await drawn(other.page);
+    await says(other.page, "#decide-text", /bracket\.job\.toml/);
+    await other.page.locator("#decide-fixes button").first().click();
+    await value(other.page, "field-wire", "0.18");
+    await other.page.waitForSelector("#decide", { state: "hidden" });
+    await other.context.close();
   });
 
   test("20,000 circles: open, panned, chosen; a frame costs no more than one of 2,000", async (t) => {

@@ -43,9 +43,15 @@ export interface Started {
 }
 
 /** `skg ui` on a drawing in a folder of its own. */
-export async function start(name = "bracket.dxf", data: Buffer | string = BRACKET, isNamed = true): Promise<Started> {
+export async function start(
+  name = "bracket.dxf",
+  data: Buffer | string = BRACKET,
+  isNamed = true,
+  beside: Readonly<Record<string, Buffer>> = {},
+): Promise<Started> {
   const folder = mkdtempSync(join(tmpdir(), "skg-ui-"));
   writeFileSync(join(folder, name), data);
+  for (const [other, bytes] of Object.entries(beside)) writeFileSync(join(folder, other), bytes);
   const child = spawn(SKG, ["ui", "--no-browser", ...(isNamed ? [join(folder, name)] : [])], {
     stdio: ["ignore", "pipe", "inherit"],
   });

@@ -385,7 +385,20 @@ class Handler(BaseHTTPRequestHandler):
         data = self._json()
         kinds = _field(data, "what", list)
         run = None if data.get("run") is None else _field(data, "run", int)
-        self._send_json({"written": self.server.session.save(run, kinds, data.get("overwrite") is True)})
+        name, style = (
+            _field(data, key, str) if key in data else usual for key, usual in (("name", ""), ("style", "punch"))
+        )
+        is_over, is_short = (data.get(key) is True for key in ("overwrite", "short"))
+        written = self.server.session.save(run, kinds, is_over, name, style, is_short)
+        self._send_json({"written": written})
+
+    def _rest(self, query: dict[str, str], number: str, block: str) -> None:
+        rest = self.server.session.styled(int(number), query.get("style", "punch"), int(block))
+        self._send(rest, TYPES["tape"])
+
+    def _take(self, query: dict[str, str]) -> None:
+        data = self._json()
+        self._send_json(self.server.session.take(_field(data, "name", str), data.get("take") is True))
 
     def _send_json(self, data: dict, status: HTTPStatus = HTTPStatus.OK) -> None:
         self._send(encoded(data), "application/json", status)
@@ -439,7 +452,9 @@ ROUTES = (
     ("GET", "/api/run/([0-9]{1,9})", Handler._run),
     ("DELETE", "/api/run/([0-9]{1,9})", Handler._cancel),
     ("GET", "/api/run/([0-9]{1,9})/(tape|program|sheet|sheet[.]svg|job)", Handler._file),
+    ("GET", "/api/run/([0-9]{1,9})/from/([0-9]{1,9})", Handler._rest),
     ("POST", "/api/save", Handler._save),
+    ("POST", "/api/take", Handler._take),
 )
 
 
@@ -456,7 +471,7 @@ def _field(data: dict, name: str, kind: type) -> object:
     """A field of a body."""
     value = data.get(name)
     if type(value) is not kind:
-        expected = {int: "a whole number", list: "a list", dict: "an object"}[kind]
+        expected = {int: "a whole number", list: "a list", dict: "an object", str: "a text"}[kind]
         raise Refused(HTTPStatus.BAD_REQUEST, f"{name}: expected {expected}")
     return value
 

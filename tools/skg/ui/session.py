@@ -11,9 +11,12 @@ from threading import Condition, Event, Lock, Thread
 
 from skg.errors import UserError, of_system
 from skg.files import is_same_file, read_bytes, write_bytes
+from skg.job import file as job_files
 from skg.job.job import ROMS
 from skg.messages.finding import Finding, Phrase
+from skg.tape.block import Block
 from skg.tape.positions import WITHOUT_DRIFT
+from skg.tape.styles import STYLES, read_any, to_style
 from skg.ui.json_text import said, told
 from skg.ui.worker import Ended, Worker
 
@@ -30,8 +33,12 @@ NOTHING: dict = {
     **{name: "" for name in ("sha256", "units", "units_from")},
     "left": {"edges": [], "notes": []},
 }
-#: Job files end so.
-JOB = ".job.toml"
+#: Job files end so; that of what nobody has saved has this before.
+JOB, UNSAVED = ".job.toml", ".unsaved"
+#: What is set is kept when nothing else was set for so long, s.
+_MOMENT = 1.0
+#: A name without its ending has no more letters.
+MOST_STEM = 200
 
 
 class Conflict(UserError):
@@ -93,6 +100,11 @@ class Session:
         #: The job as a file has it, or as it was before the page changed it; None before there is one.
         self._saved: dict | None = None
         self._closed = Event()
+        #: The file of this session's own that has what nobody has saved; jobs beside the drawing that were not looked
+        #: at, by their names.
+        self._kept: Path | None = None
+        self._keeping = Lock()
+        self._offers: list[str] = []
 
     def begin(self, path: Path | None) -> None:
         """Open a drawing or a job file, if one is named, and watch the drawing."""
@@ -106,6 +118,7 @@ class Session:
         self._path, self._stamp = path, _stamp(path)
         data = read_bytes(str(path))
         Thread(target=self._watch, args=(data, job), daemon=True).start()
+        Thread(target=self._keep_always, daemon=True).start()
 
     def may_end(self) -> bool:
         """Whether nobody is kept waiting and nothing is lost when all ends now."""
@@ -117,18 +130,82 @@ class Session:
             return None
         if self._run:
             self.cancel(self._run.number)
-        name, data = self._names()["job"].removesuffix(JOB), self._job_file()
-        path = self._path.with_name(f"{name}.unsaved{JOB}")
-        try:
-            number = 1
-            while path.exists() and path.read_bytes() != data:
-                number += 1
-                path = self._path.with_name(f"{name}.unsaved-{number}{JOB}")
-            if not path.exists():
-                write_bytes(str(path), data)
-        except OSError as error:
-            raise UserError(Finding("page-not-kept", file=path.name, detail=of_system(error))) from None
-        return path.name
+        return self._keep().name
+
+    def _keep(self) -> Path:
+        """Write the job as it is now into a file of this session's own, beside the drawing."""
+        if self._is_unsafe:
+            raise UserError(Finding("no-job-yet"))
+        with self._keeping:
+            data = job_files.encoded(job_files.from_data(self._state["job"], self._state["name"]))
+            name = self._names()["job"].removesuffix(JOB)
+            path, number = self._kept or self._path.with_name(f"{name}{UNSAVED}{JOB}"), 1
+            try:
+                while not self._kept and path.exists() and path.read_bytes() != data:
+                    number += 1
+                    path = self._path.with_name(f"{name}{UNSAVED}-{number}{JOB}")
+                if not path.exists() or path.read_bytes() != data:
+                    write_bytes(str(path), data)
+            except OSError as error:
+                raise UserError(Finding("page-not-kept", file=path.name, detail=of_system(error))) from None
+            self._kept = path
+            return path
+
+    def _keep_always(self) -> None:
+        """Keep the job a moment after each change; what is saved is not kept beside that."""
+        before = None
+        while not self._closed.wait(_MOMENT) and self._path:
+            with self._news:
+                now, is_whole = self._state.get("job"), not self._is_unsafe
+            if now is not None and now == before and is_whole:
+                # (a folder that takes nothing is told of at the end)
+                with suppress(UserError):
+                    if self._has_changes():
+                        self._keep()
+                    else:
+                        self._forget_kept()
+            before = now
+
+    def _forget_kept(self) -> None:
+        with self._keeping:
+            kept, self._kept = self._kept, None
+            if kept:
+                with suppress(OSError):
+                    kept.unlink()
+
+    def _find_offers(self) -> None:
+        """Find jobs beside the drawing: the last one that nobody has saved, and the drawing's own."""
+        if self._path is None:
+            return
+        job = self._path.with_name(self._names()["job"])
+        stem, folder = job.name.removesuffix(JOB), self._path.parent
+        known = {f"{stem}{UNSAVED}{JOB}", *(f"{stem}{UNSAVED}-{number}{JOB}" for number in range(2, 100))}
+        with suppress(OSError):
+            unsaved = [entry for entry in folder.iterdir() if entry.name in known and entry.is_file()]
+            newest = sorted(unsaved, key=lambda entry: entry.stat().st_mtime_ns)[-1:]
+            own = [job] if self._job_path is None and job.is_file() else []
+            self._offers = [entry.name for entry in (*newest, *own)]
+
+    def take(self, name: str, is_wanted: bool) -> dict:
+        """Take a job that is offered, or leave it: the state."""
+        if name not in self._offers or self._path is None:
+            raise UserError(Finding("bad-request", detail="name: not offered"))
+        path = self._path.with_name(name)
+        is_unsaved = UNSAVED in name.removesuffix(JOB)
+        if is_wanted:
+            data = read_bytes(str(path))
+            with self._called():
+                answer = self._worker.call("open", self._data, self._state["name"], data, True)
+                if is_unsaved:
+                    self._kept = path
+                else:
+                    self._job_path = path
+                self._take(answer, is_saved=not is_unsaved)
+        with self._news:
+            self._offers = [] if is_wanted else [other for other in self._offers if other != name]
+            self._rev += not is_wanted
+            self._news.notify_all()
+        return self.state()
 
     def _has_changes(self) -> bool:
         return self._state.get("job") is not None and self._state["job"] != self._saved
@@ -155,6 +232,7 @@ class Session:
                 "rev": self._rev,
                 "drawn": self._drawn,
                 "can_save": self._path is not None,
+                "offers": self._offers,
                 "run": run and run.number,
                 "run_rev": run and run.rev,
                 **self._state,
@@ -164,7 +242,8 @@ class Session:
     def open(self, data: bytes, name: str) -> dict:
         """Open a drawing that the page sent, or a job for the drawing that is open: the state."""
         if not name.lower().endswith(".toml"):
-            self._path = self._job_path = None
+            self._path = self._job_path = self._kept = None
+            self._offers = []
             self._load(data, name, None)
             return self.state()
         with self._called():
@@ -291,6 +370,7 @@ class Session:
     def _watch(self, data: bytes, job: bytes | None) -> None:
         """Read the drawing, and again whenever its file has changed and is at rest."""
         path, before = self._path, self._stamp
+        self._find_offers()
         with suppress(Ended):
             self._load(data, path.name, job, path)
         while not self._closed.wait(_LOOK) and self._path:
@@ -403,15 +483,50 @@ class Session:
 
     def _names(self) -> dict[str, str]:
         """The names of what can be saved."""
-        name = self._state["name"]
+        name = self._state["name"] or (self._path.name if self._path else "")
         stem = name[: -len(Path(name).suffix)] if Path(name).suffix else name
         job = self._job_path.name if self._job_path else stem + JOB
-        rom = (self._state["job"] or {}).get("machine", {}).get("rom", ROMS[0])
+        rom = (self._state.get("job") or {}).get("machine", {}).get("rom", ROMS[0])
         tape = stem + (WITHOUT_DRIFT if rom == ROMS[0] else ".3b")
         return {"program": f"{stem}.skg", "job": job, "sheet": f"{stem}.pdf", "tape": tape}
 
-    def save(self, number: int | None, kinds: list[str], is_over: bool) -> list[str]:
-        """Write files of a run beside the drawing: their names. Some that are there are a `Conflict`."""
+    def styled(self, number: int, style: str, first: int = 1) -> bytes:
+        """The tape of a run in a style, from a block on (from 1)."""
+        data = self.file(number, "tape")
+        if style not in STYLES:
+            raise UserError(Finding("bad-request", detail=f"style: expected one of {', '.join(STYLES)}"))
+        if style == "punch" and first == 1:
+            return data
+        items = list(read_any(data).items)
+        begins = [at for at, item in enumerate(items) if isinstance(item, Block)]
+        if not 1 <= first <= len(begins):
+            raise UserError(Finding("bad-request", detail=f"block: expected from 1 to {len(begins)}"))
+        return to_style(items[begins[first - 1] :], style)
+
+    def named(self, name: str, is_short: bool) -> dict[str, str]:
+        """The names of files, all of them after a given one, but for the job: it is the drawing's. `is_short`: that of
+        the tape has eight letters and three, and does not tell whether it is without drift."""
+        names = self._names()
+        if not name:
+            return names
+        if len(name) > MOST_STEM or Path(name).name != name or not name.isprintable() or name.startswith("."):
+            raise UserError(Finding("bad-request", detail="name: expected that of a file, without a folder"))
+        ending = ".3b" if is_short else names["tape"][len(names["program"]) - len(".skg") :]
+        return names | {"program": f"{name}.skg", "sheet": f"{name}.pdf", "tape": name + ending}
+
+    def save(
+        self,
+        number: int | None,
+        kinds: list[str],
+        is_over: bool,
+        name: str = "",
+        style: str = "punch",
+        is_short: bool = False,
+    ) -> list[str]:
+        """Write files of a run beside the drawing: their names. Some that are there are a `Conflict`.
+
+        `name`: that of the files, without endings, else the drawing's; `style`: of the tape; `is_short`: see `named`.
+        """
         if self._path is None:
             raise UserError(Finding("no-folder"))
         if unknown := [kind for kind in kinds if kind not in SAVED]:
@@ -419,10 +534,12 @@ class Session:
             raise UserError(Finding("bad-request", detail=detail))
         if number is None and kinds != ["job"]:
             raise UserError(Finding("bad-request", detail="run: expected a number, for what is made by a run"))
-        names, folder = self._names(), self._path.parent
+        names, folder = self.named(name, is_short), self._path.parent
         if number is not None:
             files = {kind: self.file(number, kind) for kind in SAVED if kind in kinds}
-            names["tape"] = self._known(number).result["tape_name"]
+            if "tape" in kinds:
+                files["tape"] = self.styled(number, style)
+            names["tape"] = names["tape"] if name else self._known(number).result["tape_name"]
         else:
             files = {"job": self._job_file()}
         files = {names[kind]: data for kind, data in files.items()}
@@ -444,6 +561,8 @@ class Session:
             written.append(name)
         if "job" in kinds:
             self._note_saved(number)
+            if not self._has_changes():
+                self._forget_kept()
         return written
 
     def _note_saved(self, number: int | None) -> None:

@@ -59,6 +59,13 @@ export class Decisions {
   }
 
   #fixes(line: Told): Fix[] {
+    const { offer } = line;
+    if (offer !== undefined) {
+      return [
+        { label: w("offerTake"), act: () => void this.#desk.take(offer, true) },
+        { label: w("offerLeave"), act: () => void this.#desk.take(offer, false) },
+      ];
+    }
     const fixes = fixesOf(this.#desk, line);
     if (this.#placeOf(line)) fixes.unshift({ label: w("show"), act: () => this.look(line) });
     if (!line.wrong) fixes.push({ label: w("fixAsItIs"), act: () => this.#told.accept(line) });
@@ -78,7 +85,7 @@ export class Decisions {
   }
 }
 
-const nameOf = ({ code, contour, place }: Told): string => JSON.stringify([code, contour, place]);
+const nameOf = ({ code, contour, place, offer }: Told): string => JSON.stringify([code, contour, place, offer]);
 
 function button({ label, act }: Fix): HTMLButtonElement {
   const made = make("button", "", label);

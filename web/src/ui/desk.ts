@@ -186,6 +186,13 @@ export class Desk {
     this.#tell("job");
   }
 
+  /** Takes a job that lies beside the drawing, or leaves it. */
+  async take(name: string, isWanted: boolean): Promise<void> {
+    this.#polling?.abort();
+    this.#adopt(await this.#server.take(name, isWanted));
+    this.#tell("job");
+  }
+
   /** Takes what the server has; `ours`: the job that it answers to. */
   #adopt(later: State | Later | Empty | undefined, ours?: Edited): void {
     if (!later) return;

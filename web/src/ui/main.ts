@@ -18,7 +18,7 @@ import { MatchList } from "./matches.ts";
 import { Menu } from "./menu.ts";
 import { Report } from "./report.ts";
 import { Results } from "./result.ts";
-import { save } from "./saving.ts";
+import { Saving } from "./saving.ts";
 import { Gone, Refusal, Server } from "./server.ts";
 import { TellTale } from "./told.ts";
 import { Tree } from "./tree.ts";
@@ -41,7 +41,8 @@ const machine = new MachineFields(desk, show);
 const told = new TellTale(desk, cutting, canvas.ways);
 const decisions = new Decisions(desk, canvas, told);
 const report = new Report(desk, told, (line) => decisions.look(line));
-const results = new Results(cutting, server, canvas, told, new WebAssembly.Module(walkBytes));
+const saving = new Saving(desk, cutting, server);
+const results = new Results(cutting, server, canvas, told, saving, new WebAssembly.Module(walkBytes));
 const menu = new Menu(desk, actions);
 const appearance = new Appearance(
   () => {
@@ -59,8 +60,8 @@ const appearance = new Appearance(
 const cut = async (): Promise<void> => {
   if (takeTyped() && (await asksForWire(desk, told))) void cutting.start();
 };
-const saveAll = (): void => {
-  if (takeTyped()) void save(desk, cutting, server);
+const saveAll = (isNew = false): void => {
+  if (takeTyped()) void saving.save(isNew);
 };
 const pick = (): void => get<HTMLInputElement>("file").click();
 
@@ -127,7 +128,7 @@ function bind(): void {
   desk.onChange((news) => {
     // (units, layers and the like may help a drawing that cannot be read)
     if (news.has("drawing") && desk.state?.error) get<HTMLDetailsElement>("more").open = true;
-    if (news.has("server") && desk.isGone) show(w("gone"));
+    if (news.has("server") && desk.isGone) show(w(desk.state?.can_save === false ? "goneDropped" : "gone"));
     else if (news.has("server")) hide();
     say();
   });
@@ -139,14 +140,15 @@ function bind(): void {
   const hint = (word: Word | undefined): void => (word ? show(w(word)) : hide());
   new Keys(desk, canvas, actions, {
     cut: () => void cut(),
-    save: saveAll,
+    save: () => saveAll(),
     open: pick,
     menu: (id, x, y) => menu.open(id, x, y),
     hint,
   });
   onClick("cut", () => void cut());
   onClick("cancel", () => void cutting.cancel());
-  onClick("save", saveAll);
+  onClick("save", () => saveAll());
+  onClick("save-new", () => saveAll(true));
   onClick("undo", () => desk.undo());
   onClick("redo", () => desk.redo());
   onClick("alike", () => actions.alike());

@@ -1,15 +1,18 @@
 /** The result of the cut: its figures, the blocks, the program, the sheet, and the controller's walk over the drawing. */
 import { BlockList } from "../blocklist.ts";
 import { Chooser } from "../choice.ts";
-import { get, make } from "../dom.ts";
+import { get, make, onClick } from "../dom.ts";
+import { saveFile } from "../files.ts";
 import { inPresent } from "../language.ts";
-import { type Layout, layOut, nothing } from "../placed.ts";
+import { show } from "../message.ts";
+import { type Layout, layOut, nothing, type Placed } from "../placed.ts";
 import { readTape } from "../tape.ts";
 import { WalkBar } from "../walkbar.ts";
 import type { Canvas } from "./canvas.ts";
 import type { Cutting } from "./cutting.ts";
 import { Drawer } from "./drawer.ts";
-import { micrometres } from "./geometry.ts";
+import { micrometres, millimetres } from "./geometry.ts";
+import type { Saving } from "./saving.ts";
 import { Gone, Refusal, type Server } from "./server.ts";
 import type { TellTale } from "./told.ts";
 import type { Result, Run } from "./types.ts";
@@ -22,6 +25,7 @@ export class Results {
   readonly #server: Server;
   readonly #canvas: Canvas;
   readonly #told: TellTale;
+  readonly #saving: Saving;
   readonly #chooser = new Chooser();
   readonly #list: BlockList;
   readonly #walkBar: WalkBar;
@@ -32,11 +36,12 @@ export class Results {
   #drawn: number | undefined;
   #sheet = "";
 
-  constructor(cutting: Cutting, server: Server, canvas: Canvas, told: TellTale, walk: WebAssembly.Module) {
+  constructor(cutting: Cutting, server: Server, canvas: Canvas, told: TellTale, saving: Saving, walk: WebAssembly.Module) {
     this.#cutting = cutting;
     this.#server = server;
     this.#canvas = canvas;
     this.#told = told;
+    this.#saving = saving;
     this.#list = new BlockList(get("list"), this.#chooser);
     this.#list.describe = (_, stop) => (stop ? w("stopAfter") : "");
     const parts = {
@@ -49,10 +54,46 @@ export class Results {
     };
     this.#walkBar = new WalkBar(parts, canvas, walk, (block) => this.#chooser.choose({ block }));
     // (a block that is chosen in the list is shown on the drawing)
-    this.#chooser.onChange((choice) =>
-      canvas.showBlock(choice && "block" in choice ? this.#layout.blocks[choice.block - 1] : undefined),
-    );
+    this.#chooser.onChange((choice) => {
+      canvas.showBlock(this.#block(choice));
+      this.#sayGoOn();
+    });
+    onClick("go-on-save", () => void this.#goOn());
     new Drawer(() => void this.#bringSheet());
+  }
+
+  #block(choice = this.#chooser.choice): Placed | undefined {
+    return choice && "block" in choice ? this.#layout.blocks[choice.block - 1] : undefined;
+  }
+
+  /** Says where the wire must stand for the rest of the tape, from the chosen block on. */
+  #sayGoOn(): void {
+    const block = this.#block();
+    get("go-on").hidden = !block;
+    const [first] = this.#layout.blocks;
+    if (!block || !first) return;
+    const [x, y] = block.start;
+    const text = (micrometres: number): string => (micrometres / 1000).toFixed(3);
+    get("go-on-text").textContent = w("goOn", block.number);
+    get("go-on-place").textContent = w("goOnPlace", text(x), text(y));
+    get("go-on-way").textContent = w("goOnWay", text(x - first.start[0]), text(y - first.start[1]));
+    get("go-on-save").textContent = w("goOnSave", block.number);
+  }
+
+  /** Gives the rest of the tape as a file. */
+  async #goOn(): Promise<void> {
+    const [run, block, { outcome }] = [this.#shown, this.#block(), this.#cutting];
+    if (run === undefined || !block || outcome.kind !== "done") return;
+    try {
+      const rest = await this.#server.tape(run, this.#saving.style, block.number);
+      const name = outcome.result.tape_name.replace(/((\.nodrift)?\.3b)$/, `.from${block.number}$1`);
+      saveFile(name, rest);
+      this.#canvas.point(millimetres(block.start));
+      show(w("downloaded", name));
+    } catch (error) {
+      if (!(error instanceof Gone || error instanceof Refusal)) throw error;
+      show(error instanceof Refusal ? inPresent(error.fault.message) : w("gone"));
+    }
   }
 
   /** Shows how far the run is, or what came of it. */
@@ -161,6 +202,7 @@ export class Results {
   name(): void {
     this.#walkBar.say();
     this.#list.grown(false);
+    this.#sayGoOn();
     this.say();
   }
 }

@@ -1,4 +1,5 @@
-/** Saves files beside the drawing, or as downloads if the drawing was dropped on the page. */
+/** Saves files beside the drawing, or as downloads if the drawing was dropped on the page. The first time of a drawing it asks for
+ * their name and the style of the tape. */
 import { get } from "../dom.ts";
 import { saveFile } from "../files.ts";
 import { inPresent } from "../language.ts";
@@ -6,48 +7,148 @@ import { ask, show } from "../message.ts";
 import type { Cutting } from "./cutting.ts";
 import type { Desk } from "./desk.ts";
 import { Gone, Refusal, type Server } from "./server.ts";
-import type { FileKind } from "./types.ts";
+import type { FileKind, Named, Style } from "./types.ts";
 import { w } from "./words.ts";
 
-/** Endings of what is downloaded, behind the drawing's name without its own. */
+/** Endings of what is downloaded, behind the name without its own. */
 const ENDINGS: Record<FileKind, string> = { tape: "", program: ".skg", sheet: "-sheet.pdf", job: ".job.toml" };
+/** The ending of a tape without drift, else of any. */
+const TAPE = /\.nodrift\.3b$|\.3b$/;
+/** A name that a control of eight letters takes. */
+const EIGHT = /^[A-Z0-9_-]{1,8}$/i;
+const BAD_NAME = /[\0-\x1f\x7f/\\:*?"<>|]|^\.|^$/;
 
-/** Saves the tape and what is ticked beside it; without a tape the job alone. */
-export async function save(desk: Desk, cutting: Cutting, server: Server): Promise<void> {
-  const ticked = [...get("save-what").querySelectorAll<HTMLInputElement>("input:checked")].map(({ value }) => value as FileKind);
-  const what: FileKind[] = cutting.isDone ? ticked : ["job"];
-  const run = cutting.isDone ? (cutting.run ?? null) : null;
-  if (!desk.state || !what.length) return;
-  try {
-    await desk.settle();
-    const names = desk.state.can_save ? await written(server, run, what) : await downloaded(desk, cutting, server, what);
-    if (names.length) show(w(desk.state.can_save ? "saved" : "downloaded", names.join(", ")));
-  } catch (error) {
-    if (error instanceof Refusal) show(inPresent(error.fault.message));
-    else if (error instanceof Gone) show(w("gone"));
-    else throw error;
+export class Saving {
+  readonly #desk: Desk;
+  readonly #cutting: Cutting;
+  readonly #server: Server;
+  /** The drawing for which name and style were asked. */
+  #asked = "";
+  #named: Named = { name: "", style: "punch", short: false };
+
+  constructor(desk: Desk, cutting: Cutting, server: Server) {
+    this.#desk = desk;
+    this.#cutting = cutting;
+    this.#server = server;
+  }
+
+  get style(): Style {
+    return this.#named.style;
+  }
+
+  /** The drawing's name without its ending. */
+  get #stem(): string {
+    return (this.#desk.state?.name ?? "").replace(/\.\w+$/, "");
+  }
+
+  /** Saves the tape and what is ticked beside it; without a tape the job alone. `isNew`: asks for the name again. */
+  async save(isNew = false): Promise<void> {
+    const { state } = this.#desk;
+    if (!state) return;
+    const run = this.#cutting.isDone ? (this.#cutting.run ?? null) : null;
+    if (run !== null && (isNew || this.#asked !== state.name) && !(await this.#ask())) return;
+    const what: FileKind[] = run === null ? ["job"] : ticked();
+    if (!what.length) return;
+    try {
+      await this.#desk.settle();
+      const names = state.can_save ? await this.#written(run, what) : await this.#downloaded(run, what);
+      if (names.length) show(w(state.can_save ? "saved" : "downloaded", names.join(", ")));
+    } catch (error) {
+      if (error instanceof Refusal) show(inPresent(error.fault.message));
+      else if (error instanceof Gone) show(w("gone"));
+      else throw error;
+    }
+  }
+
+  /** Asks for name and style; false: nothing is saved. */
+  async #ask(): Promise<boolean> {
+    const dialog = get<HTMLDialogElement>("save-as");
+    const [name, style] = [get<HTMLInputElement>("save-name"), get<HTMLSelectElement>("save-style")];
+    const [eight, hint] = [get<HTMLInputElement>("save-eight"), get("save-hint")];
+    name.value = (this.#asked === this.#desk.state?.name && this.#named.name) || this.#stem;
+    style.value = this.#named.style;
+    eight.checked = this.#named.short;
+    const check = (): boolean => {
+      const isBad = BAD_NAME.test(name.value) || (eight.checked && !EIGHT.test(name.value));
+      name.ariaInvalid = String(isBad);
+      hint.textContent = isBad
+        ? w(eight.checked ? "saveEightOnly" : "saveBadName")
+        : eight.checked
+          ? w("saveEightSays", name.value)
+          : "";
+      return !isBad;
+    };
+    name.oninput = check;
+    eight.onchange = () => {
+      if (eight.checked) name.value = shortened(name.value);
+      check();
+    };
+    check();
+    const isTaken = await new Promise<boolean>((tell) => {
+      const end = (isYes: boolean): void => {
+        if (isYes && !check()) {
+          name.focus();
+          return;
+        }
+        dialog.onclose = null;
+        dialog.close();
+        tell(isYes);
+      };
+      get("save-yes").onclick = () => end(true);
+      get("save-no").onclick = () => end(false);
+      dialog.onkeydown = (event) => {
+        if (event.key !== "Enter" || event.target !== name) return;
+        event.preventDefault();
+        end(true);
+      };
+      dialog.onclose = () => tell(false);
+      dialog.showModal();
+      name.select();
+    });
+    if (!isTaken) return false;
+    this.#asked = this.#desk.state?.name ?? "";
+    this.#named = { name: name.value, style: style.value as Style, short: eight.checked };
+    return true;
+  }
+
+  async #downloaded(run: number | null, what: readonly FileKind[]): Promise<string[]> {
+    const { outcome } = this.#cutting;
+    const tape = outcome.kind === "done" ? outcome.result.tape_name : "";
+    const stem = this.#named.name || this.#stem;
+    const names: string[] = [];
+    for (const each of what) {
+      const name =
+        each === "tape"
+          ? stem + ((!this.#named.short && TAPE.exec(tape)?.[0]) || ".3b")
+          : (each === "job" ? this.#stem : stem) + ENDINGS[each];
+      const file =
+        run === null
+          ? await this.#server.job()
+          : await (each === "tape" ? this.#server.tape(run, this.#named.style) : this.#server.file(run, each));
+      saveFile(name, file);
+      names.push(name);
+    }
+    return names;
+  }
+
+  /** Asks before it overwrites. */
+  async #written(run: number | null, what: readonly FileKind[]): Promise<string[]> {
+    const save = (isOver: boolean): Promise<string[]> => this.#server.save(run, what, isOver, this.#named);
+    try {
+      return await save(false);
+    } catch (error) {
+      if (!(error instanceof Refusal) || !error.exists.length) throw error;
+      if (!(await ask(w("askOverwrite", error.exists.join(", ")), w("overwrite")))) return [];
+      return save(true);
+    }
   }
 }
 
-async function downloaded(desk: Desk, { outcome, run }: Cutting, server: Server, what: readonly FileKind[]): Promise<string[]> {
-  const tape = outcome.kind === "done" ? outcome.result.tape_name : "";
-  const stem = (desk.state?.name ?? "").replace(/\.\w+$/, "");
-  const names: string[] = [];
-  for (const each of what) {
-    const name = each === "tape" ? tape : stem + ENDINGS[each];
-    saveFile(name, run === undefined ? await server.job() : await server.file(run, each));
-    names.push(name);
-  }
-  return names;
-}
+const ticked = (): FileKind[] =>
+  [...get("save-as").querySelectorAll<HTMLInputElement>("[name=what]:checked")].map(({ value }) => value as FileKind);
 
-/** Asks before it overwrites. */
-async function written(server: Server, run: number | null, what: readonly FileKind[]): Promise<string[]> {
-  try {
-    return await server.save(run, what, false);
-  } catch (error) {
-    if (!(error instanceof Refusal) || !error.exists.length) throw error;
-    if (!(await ask(w("askOverwrite", error.exists.join(", ")), w("overwrite")))) return [];
-    return server.save(run, what, true);
-  }
-}
+const shortened = (name: string): string =>
+  name
+    .replace(/[^\w-]/g, "")
+    .toUpperCase()
+    .slice(0, 8);

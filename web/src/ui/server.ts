@@ -1,5 +1,5 @@
 /** The calls to the server of `skg ui`. */
-import type { Empty, Fault, FileKind, Job, Later, Put, Run, Said, State, Ways } from "./types.ts";
+import type { Empty, Fault, FileKind, Job, Later, Named, Put, Run, Said, State, Style, Ways } from "./types.ts";
 
 /** The server refused, and said why. */
 export class Refusal extends Error {
@@ -70,8 +70,19 @@ export class Server {
     return (await this.#call("GET", "job")).blob();
   }
 
-  async save(run: number | null, what: readonly FileKind[], overwrite: boolean): Promise<string[]> {
-    return (await this.#json<{ written: string[] }>("POST", "save", { run, what, overwrite })).written;
+  /** Writes files beside the drawing: their names. */
+  async save(run: number | null, what: readonly FileKind[], overwrite: boolean, named: Named): Promise<string[]> {
+    return (await this.#json<{ written: string[] }>("POST", "save", { run, what, overwrite, ...named })).written;
+  }
+
+  /** The tape of a run in a style, from a block on. */
+  async tape(run: number, style: Style, first = 1): Promise<Blob> {
+    return (await this.#call("GET", `run/${run}/from/${first}?style=${style}`)).blob();
+  }
+
+  /** Takes a job that lies beside the drawing, or leaves it. */
+  async take(name: string, take: boolean): Promise<State> {
+    return this.#json("POST", "take", { name, take });
   }
 
   async #json<T>(method: string, path: string, data?: unknown): Promise<T> {

@@ -8,6 +8,8 @@ import { both } from "./words.ts";
 export interface Told extends Line {
   /** No tape is made while this stands. */
   readonly wrong?: boolean;
+  /** A job file that is offered, by its name. */
+  readonly offer?: string;
 }
 
 export class TellTale {
@@ -54,7 +56,7 @@ export class TellTale {
   get open(): readonly Told[] {
     const { lines } = this;
     const isOpen = (line: Told): boolean => line.care === true && !this.#accepted.has(this.#key(line));
-    return [...lines.filter((line) => line.wrong), ...lines.filter(isOpen)];
+    return [...this.#offers(), ...lines.filter((line) => line.wrong), ...lines.filter(isOpen)];
   }
 
   /** It stays as it is: nobody is asked again while it says the same. */
@@ -75,6 +77,15 @@ export class TellTale {
   #key({ code, key }: Told): string {
     const all = `${this.#desk.state?.name} ${code}`;
     return this.#accepted.has(all) ? all : `${all} ${key}`;
+  }
+
+  /** Jobs that lie beside the drawing. */
+  #offers(): Told[] {
+    return (this.#desk.state?.offers ?? []).map((offer) => ({
+      code: "offer",
+      text: both(/\.unsaved(-\d+)?\.job\.toml$/.test(offer) ? "offerKept" : "offerJob", offer),
+      offer,
+    }));
   }
 
   /** The drawing cannot be read, or its file is gone. */

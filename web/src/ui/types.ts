@@ -144,6 +144,8 @@ export interface State {
   readonly rev: number;
   readonly name: string;
   readonly can_save: boolean;
+  /** Job files beside the drawing that nobody has looked at: what was not saved, the drawing's own. */
+  readonly offers?: readonly string[];
   readonly sha256: string;
   readonly size: Point;
   readonly low: Point;
@@ -201,3 +203,10 @@ export interface Run {
 /** Edges of the wire's centre by contour, for each pass and tab. */
 export type Ways = Readonly<Record<string, readonly (readonly Edge[])[]>>;
 export type FileKind = "tape" | "program" | "sheet" | "job";
+/** The name of what is saved, without endings, "" for the drawing's; a short one's tape has eight letters and three. */
+export interface Named {
+  readonly name: string;
+  readonly style: Style;
+  readonly short: boolean;
+}
+export type Style = "punch" | "spaced" | "numbered" | "padded" | "joined";

@@ -12,6 +12,29 @@ const WORDS = {
   save: ["Save", "保存"],
   saveJob: ["Save job", "保存作业"],
   saveWhat: ["What is saved", "保存内容"],
+  saveAs: ["Save under a name", "另存为"],
+  fileName: ["Name", "名称"],
+  saveEight: ["At most eight letters", "最多八个字符"],
+  saveEightOnly: ["One to eight letters or digits", "一至八个字母或数字"],
+  saveEightSays: ["{0}.3b: the name does not say whether it is without drift", "{0}.3b：名称不说明是否无漂移"],
+  saveBadName: ["The name of a file, without a folder", "请输入文件名，不含文件夹"],
+  style: ["Style of the tape", "3B 代码格式"],
+  stylePunch: ["as punched: B1B2B3GXL1", "标准：B1B2B3GXL1"],
+  styleSpaced: ["spaced: B 1 B 2 B 3 GX L1", "带空格：B 1 B 2 B 3 GX L1"],
+  styleNumbered: ["numbered: N 1: B 1 B 2 B 3 GX L1", "带编号：N 1: B 1 B 2 B 3 GX L1"],
+  stylePadded: ["six digits: B000001B000002…", "补零：B000001B000002…"],
+  styleJoined: ["all in one line", "全部一行"],
+  offerKept: ["Settings that were not saved are in {0}", "有未保存的设置：{0}"],
+  offerJob: ["The job {0} lies beside the drawing", "图纸旁有作业文件 {0}"],
+  offerTake: ["Take it", "采用"],
+  offerLeave: ["Without it", "不采用"],
+  goOn: [
+    "The tape broke off in block {0}? Go back along the cut to where this block begins, current off:",
+    "在第 {0} 段中断？断开电源，沿割缝退回到此段起点：",
+  ],
+  goOnPlace: ["x {0}  y {1} mm", "x {0}  y {1} mm"],
+  goOnWay: ["From the start hole of this tape: {0} mm in x, {1} mm in y.", "距本代码的穿丝孔：x {0} mm，y {1} mm。"],
+  goOnSave: ["Save the rest, from block {0}", "保存第 {0} 段起的 3B 代码"],
   tape: ["Tape", "3B 代码"],
   program: ["Program", "程序"],
   sheet: ["Sheet", "工艺单"],
@@ -96,7 +119,7 @@ const WORDS = {
   sideLeft: ["left", "左"],
   sideRight: ["right", "右"],
   sideOn: ["on the line", "沿线"],
-  offset: ["Offset R", "间隙补偿 R"],
+  offset: ["Offset R", "间隙补偿量 R"],
   passes: ["Left per pass", "修切余量"],
   tab: ["Tab", "暂留量"],
   slugTab: ["Tab of slugs", "废料暂留量"],
@@ -138,7 +161,7 @@ const WORDS = {
   into: ["Gouging", "切入轮廓"],
   tolerance: ["Join gaps up to", "缺口连接上限"],
   startLayer: ["Layer of start holes", "穿丝孔图层"],
-  machineOffset: ["Offset R, instead of wire and gap", "间隙补偿 R（代替丝径和间隙）"],
+  machineOffset: ["Offset R, instead of wire and gap", "间隙补偿量 R（代替丝径和间隙）"],
   material: ["Material", "材料"],
   thickness: ["Thickness", "厚度"],
   machine: ["Machine", "机床"],
@@ -176,8 +199,12 @@ const WORDS = {
     "已在另一个标签页更改：现显示该内容，您最后的更改未被采用。",
   ],
   gone: [
-    "The server of this page has ended. Nothing that was cut is lost; start skg ui again for more.",
-    "本页的服务已结束。已保存的文件不受影响；请重新运行 skg ui。",
+    "The server of this page has ended. What was set is kept: it is offered when skg ui opens the drawing again.",
+    "本页的服务已结束。设置已保留：用 skg ui 重新打开图纸时可采用。",
+  ],
+  goneDropped: [
+    "The server of this page has ended, and with it what was set for a drawing that has no folder. Start skg ui again.",
+    "本页的服务已结束；该图纸没有文件夹，设置未保留。请重新运行 skg ui。",
   ],
   noToken: [
     "This address has no key. Open the page from the line that skg ui prints.",
@@ -219,7 +246,8 @@ export type Word = keyof typeof WORDS;
 
 /** A phrase with its values; texts among them may be foreign names. */
 /** A word in both languages. */
-export const both = (word: Word): Said => WORDS[word];
+export const both = (word: Word, ...values: readonly string[]): Said =>
+  WORDS[word].map((text) => text.replace(/\{(\d)\}/g, (_, at: string) => visible(values[Number(at)] ?? ""))) as unknown as Said;
 
 export const w = (word: Word, ...values: readonly (string | number)[]): string =>
   phrase(WORDS[word], ...values.map((value) => (typeof value === "string" ? visible(value) : value)));
