@@ -5,7 +5,7 @@ import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
 import { type Browser, type BrowserContextOptions, chromium, type Locator, type Page } from "playwright-core";
 import { PATIENCE, WHOLE } from "./served.ts";
-import { BRACKET, box, circle, cutByCommand, dxf, endAll, field, start } from "./uistart.ts";
+import { BRACKET, box, circle, cutByCommand, dxf, endAll, field, line, start } from "./uistart.ts";
 
 const CHROMIUM = "/usr/bin/chromium";
 const SHOTS = process.env["SHOTS"] ?? "web/build/shots";
@@ -725,6 +725,48 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await value(other.page, "field-wire", "0.18");
     await other.page.waitForSelector("#decide", { state: "hidden" });
     await other.context.close();
+  });
+
+  test("an open end is bridged by a click, kept in the job, undone; distance, radius and angle are measured", async () => {
+    const open = dxf(...box(0, 0, 60, 40).slice(0, 3), line(0, 40, 0, 0.8), circle(15, 20, 5));
+    const { url, file } = await start("open.dxf", open);
+    const { page, context } = await visit(url, { viewport: LOW });
+    await drawn(page);
+    await type(page, "field-wire", "0.2");
+    await page.waitForSelector("#decide.wrong");
+    // (the drawing stays, with what is wrong ringed)
+    assert.equal(await page.locator("#tree [role=treeitem]").count(), 3);
+    await shot(page, "open-end");
+    await page.getByRole("button", { name: "Bridge 0.8 mm" }).click();
+    await page.waitForSelector("#decide", { state: "hidden" });
+    await says(page, "#bridge-count", "1");
+    await page.waitForFunction(() =>
+      [...document.querySelectorAll("#tree .title")].some(({ textContent }) => textContent === "outline 60 × 40"),
+    );
+    await page.click("#undo");
+    await page.waitForSelector("#decide.wrong");
+    await page.click("#redo");
+    await cut(page);
+    await page.click("#save");
+    await page.click("#save-yes");
+    await message(page, /Saved beside/);
+    assert.match(file("open.job.toml").toString(), /bridges = \[\[0.0, 0.0, 0.0, 0.8\]\]/);
+    // measuring: ends and centres are snapped to
+    await settledView(page);
+    await page.click("#measure");
+    await click(page, [60, 40]);
+    await click(page, [0, 0]);
+    await says(page, "#measured", /^72\.111 mm +dx 60\.000 +dy 40\.000$/);
+    await click(page, [15 + 5 * Math.cos(0.7), 20 + 5 * Math.sin(0.7)]);
+    await says(page, "#measured", /^R 5\.000 +⌀ 10\.000 mm +centre 15\.000, 20\.000$/);
+    await page.keyboard.press("Escape");
+    await page.waitForSelector("#measure[aria-pressed=false]");
+    await page.click("#measure");
+    await click(page, [22, 0]);
+    await click(page, [60, 11]);
+    await says(page, "#measured", /angle 90\.000°$/);
+    assert.deepEqual(await axe(page), []);
+    await context.close();
   });
 
   test("20,000 circles: open, panned, chosen; a frame costs no more than one of 2,000", async (t) => {

@@ -23,7 +23,7 @@ export function dxf(...entities: readonly (readonly [string, Record<number, stri
   return `${["0\nSECTION\n2\nENTITIES", ...pairs, "0\nENDSEC\n0\nEOF"].join("\n")}\n`;
 }
 export const circle = (x: number, y: number, r: number, layer = "PART") => ["CIRCLE", { 8: layer, 10: x, 20: y, 40: r }] as const;
-const line = (x0: number, y0: number, x1: number, y1: number, layer = "PART") =>
+export const line = (x0: number, y0: number, x1: number, y1: number, layer = "PART") =>
   ["LINE", { 8: layer, 10: x0, 20: y0, 11: x1, 21: y1 }] as const;
 export const box = (x0: number, y0: number, x1: number, y1: number) => [
   line(x0, y0, x1, y0),

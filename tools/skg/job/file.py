@@ -33,6 +33,7 @@ _READ: dict[str, values.Check] = {
     "fit_tolerance": values.number(values.LEAST_FIT),
     "encoding": values.text,
     "layers": values.names,
+    "bridges": values.bridges,
 }
 _MACHINE: dict[str, values.Check] = {
     "wire": values.number(0.0, 2 * values.MOST_OFFSET, is_open=True),

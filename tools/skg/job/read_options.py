@@ -29,7 +29,8 @@ class Wishes:
     `layers`: only these (none: all that are neither off nor frozen). `start_layer`: that of the start holes. `units`:
     one of `UNITS`, None: what the file says. `tolerance`: ends no further apart are one corner, mm. `fit_tolerance`:
     how near FIT shall come to splines and ellipses, mm. `open`: one of `OPEN`, what becomes of open contours, None: not
-    chosen. `encoding`: of a DXF file's text, None: what the file says, else guessed.
+    chosen. `encoding`: of a DXF file's text, None: what the file says, else guessed. `bridges`: lines that are put in
+    between two ends, x and y of each, mm.
     """
 
     layers: tuple[str, ...] = ()
@@ -39,6 +40,7 @@ class Wishes:
     fit_tolerance: float = 0.0002
     open: str | None = "cut"
     encoding: str | None = None
+    bridges: tuple[tuple[float, float, float, float], ...] = ()
 
     def check_layers(self, known: Iterable[str]) -> None:
         """Refuse (`UserError`) a layer that a drawing with these does not have."""

@@ -146,6 +146,14 @@ def places(value: object) -> tuple[tuple[float, float], ...]:
     return tuple(map(place, value))
 
 
+def bridges(value: object) -> tuple[tuple[float, float, float, float], ...]:
+    """Check a list of lines, [x, y, x, y]."""
+    if not isinstance(value, list | tuple):
+        raise Wrong(Phrase("value-bridges"))
+    lines = [tuple(_numbers(line, 4, number(), "value-bridges")) for line in value]
+    return tuple(dict.fromkeys(lines))
+
+
 def passes(value: object, least: int = 1) -> tuple[float, ...]:
     """Check what the passes leave, none of them more than the one before it; `least`: how many there are."""
     count = len(value) if isinstance(value, list | tuple) else 0

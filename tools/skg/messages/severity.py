@@ -25,6 +25,7 @@ class Severity(Enum):
 
 _CARE = frozenset(
     {
+        "bridge-lost",
         "page-in-dots",
         "contour-not-cut",
         "drawing-changed",
@@ -60,6 +61,7 @@ _CARE = frozenset(
         "route-given-up",
         "side-of-openings",
         "tabs-proud",
+        "thin-wall",
         "side-of-outlines",
         "whiskers",
         "size-in-dots",

@@ -8,6 +8,8 @@ from copy import copy
 from dataclasses import replace
 from math import inf
 
+import shapely
+
 from skg.errors import UserError
 from skg.geometry.arrays import Floats
 from skg.geometry.contour import Contour, Edge
@@ -45,6 +47,8 @@ _WITH_OTHERS = (SHORT, DOUBLE, PAST)
 _UNASKED, _MUCH = (JUNCTION, DASHED, AXIS), 0.1
 #: Ends past a corner whose places a line of the report names.
 _PLACES = 20
+#: The ends of a bridge are no farther from where they were, mm.
+_FOUND = 0.5
 #: Ends of what is left that are no further apart may be meant to meet, mm.
 _GAP = 0.1
 
@@ -123,7 +127,10 @@ class Selection:
     def _chains(self) -> Chains:
         """All edges as contours; what is short, drawn twice or runs past a corner is accounted for."""
         fates, report, tolerance = self.fates, self.report, self.wishes.tolerance
-        chains = chain(self.content.edges, tolerance, self.styles)
+        bridges = list(self._bridges())
+        fates.parts.update(bridge.entity for bridge in bridges)
+        report.mends += [Mend("joined", bridge.at(0.5), bridge.length) for bridge in bridges]
+        chains = chain([*self.content.edges, *bridges], tolerance, self.styles)
         if self.wishes.open != "all":
             chains, overlaps = without_overlaps(chains, tolerance, self.near, self.styles)
             fates.parts.update(piece.entity for piece, _ in overlaps.pieces)
@@ -139,6 +146,20 @@ class Selection:
         report.mends += [Mend("short", edge.start, edge.length) for edge in chains.short]
         fates.doubles += [((edge,), twin) for edge, twin in chains.doubles]
         return chains
+
+    def _bridges(self) -> Iterator[Edge]:
+        """Lines between ends of the drawing that somebody has put in; one whose ends are not there is reported."""
+        if not self.wishes.bridges:
+            return
+        entities = {end: edge.entity for edge in self.content.edges for end in (edge.start, edge.end)}
+        ends = list(entities)
+        tree = shapely.STRtree(shapely.points(ends))
+        for x, y, u, v in self.wishes.bridges:
+            first, last = (ends[at] for at in tree.nearest(shapely.points([(x, y), (u, v)])).tolist())
+            if max(distance(first, (x, y)), distance(last, (u, v))) > _FOUND or first == last:
+                self.report.findings.append(Finding("bridge-lost", first=(x, y), last=(u, v), place=(x, y)))
+            else:
+                yield Edge(first, last, entity=entities[first])
 
     def _apart(self, chains: Chains) -> tuple[list[Contour], list[Contour]]:
         """The outlines, and what hangs together with others at junctions; what is repeated or is an axis is neither."""

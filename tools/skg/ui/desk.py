@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -135,9 +135,15 @@ class Desk:
             self._drawn = open_drawing(job, self._data)
         except UserError as error:
             self._why = error
+            drawing: dict[str, Any] = {}
+            if self._seen is None and job.read.open in (None, "refuse"):
+                # (with its open lines, for who looks where they are)
+                with suppress(UserError):
+                    self._seen = open_drawing(replace(job, read=replace(job.read, open="cut")), self._data)
+                    drawing = shown.drawing(self._seen)
             matches = self._matches(self._seen.known.find(job.contours, job.box).found) if self._seen else []
             state = {"job": job_files.to_data(job), "matches": matches, "plan": None, "error": told(error)}
-            return {"drawing": {}, "state": {"name": job.drawing} | state}
+            return {"drawing": drawing, "state": {"name": job.drawing} | state}
         self._job = written(job, self._drawn)
         for chosen, match in zip(self._job.contours, self._drawn.matches.found, strict=True):
             if match.is_doubtful:

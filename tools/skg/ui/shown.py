@@ -26,6 +26,7 @@ from skg.messages.severity import Severity
 from skg.pipeline.steps import CutDrawing, DrawnJob
 from skg.planning.nesting import findings
 from skg.planning.route import Lead, PlannedContour, Way
+from skg.reading.account import Account
 from skg.ui.json_text import encoded, facts, in_json, said, told
 from skg.wording import visible
 
@@ -33,6 +34,8 @@ from skg.wording import visible
 _LENGTH, _ANGLE = 4, 6
 #: A curve is shown by chords that leave it by no more, mm.
 _CURVE = 0.0005
+#: So many gaps between open ends are shown.
+_MOST_GAPS = 200
 #: So many texts of a drawing are shown.
 _MOST_TEXTS = 2000
 #: The plan of a contour that is not cut.
@@ -96,8 +99,19 @@ def drawing(drawn: DrawnJob) -> dict[str, Any]:
         "contours": in_json([_contour(drawn, *numbered) for numbered in enumerate(drawn.known.choose_all())]),
         "starts": [place(start) for start in drawn.reading.starts],
         "left": in_json(_left(drawn)),
+        "gaps": _gaps(report),
         "report": [line(entry) for entry in report.report()],
     }
+
+
+def _gaps(report: Account) -> list[list[float]]:
+    """Pairs of open ends, each end with its nearest one, the narrowest first: x and y of both."""
+    pairs = {
+        tuple(sorted((end.place, end.other))): end.gap
+        for end in report.open_ends
+        if end.other is not None and end.place != end.other
+    }
+    return [[*place(first), *place(last)] for first, last in sorted(pairs, key=pairs.__getitem__)[:_MOST_GAPS]]
 
 
 def _left(drawn: DrawnJob) -> dict[str, Any]:

@@ -9,6 +9,7 @@ import type { Desk } from "./desk.ts";
 import { type Change, change } from "./edits.ts";
 import { type Box, micrometres, millimetres } from "./geometry.ts";
 import { type Grip, type Handle, handlesOf, stepped } from "./handles.ts";
+import { holesOf, measured, type Picked, pick } from "./measure.ts";
 import { Overlay, type Ring } from "./overlay.ts";
 import { Picture } from "./picture.ts";
 import { listenToPointers } from "./pointing.ts";
@@ -38,6 +39,10 @@ export class Canvas {
   onPoint: (place: Point | undefined) => void = () => undefined;
   /** A contour is asked for what can be done with it, at a place of the window. */
   onMenu: (id: number, x: number, y: number) => void = () => undefined;
+  /** Places that are measured, while somebody measures. */
+  #measured: readonly Picked[] | undefined;
+  /** Something was measured, in words; undefined: nobody measures. */
+  onMeasured: (text: string | undefined) => void = () => undefined;
   /** A pointer that is dragged draws a box. */
   isBoxing = false;
   /** More is known of the wire's ways. */
@@ -146,6 +151,33 @@ export class Canvas {
     this.#soon();
   }
 
+  get isMeasuring(): boolean {
+    return this.#measured !== undefined;
+  }
+
+  set isMeasuring(isOn: boolean) {
+    this.#measure(isOn ? [] : undefined);
+  }
+
+  /** Takes a place to be measured: a third one begins anew. */
+  measure(place: XY, reach: number): void {
+    const before = this.#measured ?? [];
+    const { shapes, state } = this.#desk;
+    const picked = pick(shapes.values(), holesOf(state?.starts ?? []), place, reach);
+    this.#measure(before.length === 1 ? [...before, picked] : [picked]);
+  }
+
+  #measure(picked: readonly Picked[] | undefined): void {
+    this.#measured = picked;
+    this.overlay.measured = picked?.map(({ place }) => place) ?? [];
+    this.sayMeasured();
+    this.#soon();
+  }
+
+  sayMeasured(): void {
+    this.onMeasured(this.#measured && measured(this.#measured));
+  }
+
   /** The box that is being drawn, two corners in pixels. */
   set box(box: readonly [XY, XY] | undefined) {
     this.overlay.box = box;
@@ -164,6 +196,7 @@ export class Canvas {
     const { name, low, size } = this.#desk.state ?? {};
     const part = JSON.stringify([name, low, size]);
     if (part === this.#part) return;
+    if (this.isMeasuring) this.#measure([]);
     this.#part = part;
     this.#picture.clear();
     this.fit();

@@ -1,5 +1,5 @@
 /** Changes of a job: each gives another job. Contours are known by their numbers in the drawing as it is now. */
-import type { Chosen, Contour, Job, Match, Point, Wanted } from "./types.ts";
+import type { Chosen, Contour, Gap, Job, Match, Point, Wanted } from "./types.ts";
 
 /** A job, and the contour that each of its `contour` entries is about; null: it is lost. */
 export interface Edited {
@@ -106,6 +106,13 @@ export function forget({ job, ids }: Edited, index: number): Edited {
 export function set(before: Edited, part: "machine" | "read", key: string, value: unknown): Edited {
   const { [key]: _, ...others } = before.job[part] ?? {};
   return { ...before, job: { ...before.job, [part]: value === undefined ? others : { ...others, [key]: value } } };
+}
+
+/** Lines are put in between ends, beside those that there are. */
+export function bridged(before: Edited, gaps: readonly Gap[]): Edited {
+  const known = (before.job.read?.["bridges"] ?? []) as readonly Gap[];
+  const isNew = (gap: Gap): boolean => !known.some((other) => String(other) === String(gap));
+  return set(before, "read", "bridges", [...known, ...gaps.filter(isNew)]);
 }
 
 /** Places are whole µm. */

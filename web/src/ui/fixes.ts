@@ -2,9 +2,10 @@
 import { get } from "../dom.ts";
 import { view } from "../shell.ts";
 import type { Desk } from "./desk.ts";
-import { type Change, change, type Edited, set } from "./edits.ts";
-import { typed } from "./look.ts";
+import { bridged, type Change, change, type Edited, set } from "./edits.ts";
+import { shown, typed } from "./look.ts";
 import type { Told } from "./told.ts";
+import type { Gap } from "./types.ts";
 import { find, type Word, w } from "./words.ts";
 
 export interface Fix {
@@ -66,10 +67,13 @@ const FIELDS: Record<string, Word> = {
   start: "start",
 };
 
+/** Lines of the report about ends that do not meet. */
+const OF_ENDS = new Set(["open-refused", "open-end", "outline-lost", "no-outline-gap", "ends-near", "open-on-line"]);
+
 const under = (setting: string): string => KEYS[setting] ?? setting.replaceAll("-", "_");
 
 export function fixesOf(desk: Desk, line: Told): Fix[] {
-  const { contour, wrong, advice = [] } = line;
+  const { code, contour, wrong, advice = [] } = line;
   const id = contour ?? undefined;
   const edit = (after: Edited): void => desk.edit(after);
   const wish = (wanted: Change): void =>
@@ -83,10 +87,24 @@ export function fixesOf(desk: Desk, line: Told): Fix[] {
     if (part) return [{ label, act: () => edit(set(desk.edited, part, under(setting), taken)) }];
     return setting === "side" ? [{ label, act: () => wish({ side: value as Change["side"] }) }] : [];
   });
+  if (code !== undefined && OF_ENDS.has(code)) fixes.unshift(...bridges(desk, line));
   if (!wrong || id === undefined || !desk.contours.has(id)) return fixes;
   const isOfRoom = advice.some(([setting]) => setting === "offset" || setting === "small" || setting === "into");
   if (isOfRoom) fixes.push({ label: w("fixOnLine"), act: () => wish({ side: "on" }) });
   return [...fixes, { label: w("fixLeave"), act: () => wish({ cut: false }) }];
+}
+
+/** A line is put in between two ends, those nearest to where the line of the report is, or between all. */
+function bridges(desk: Desk, { place }: Told): Fix[] {
+  const gaps = desk.state?.gaps ?? [];
+  const far = ([x, y, u, v]: Gap): number =>
+    place ? Math.min(Math.hypot(x - place[0], y - place[1]), Math.hypot(u - place[0], v - place[1])) : 0;
+  const [nearest] = [...gaps].sort((one, other) => far(one) - far(other));
+  if (!nearest) return [];
+  const bridge = (some: readonly Gap[]): void => desk.edit(bridged(desk.edited, some));
+  const wide = shown(Math.hypot(nearest[2] - nearest[0], nearest[3] - nearest[1]));
+  const one = { label: w("fixBridge", wide), act: () => bridge([nearest]) };
+  return gaps.length > 1 ? [one, { label: w("fixBridgeAll", gaps.length), act: () => bridge(gaps) }] : [one];
 }
 
 function labelOf(setting: string, value: string): string {

@@ -87,6 +87,17 @@ export function nearest({ edges }: Pick<Shape, "edges">, place: XY): OnContour {
   return best;
 }
 
+/** The edge of a contour that is nearest. */
+export function nearestEdge({ edges }: Pick<Shape, "edges">, place: XY): readonly number[] | undefined {
+  let best = Number.POSITIVE_INFINITY;
+  let found: readonly number[] | undefined;
+  for (const edge of edges) {
+    const { distance } = nearest({ edges: [edge] }, place);
+    if (distance < best) [best, found] = [distance, edge];
+  }
+  return found;
+}
+
 /** The place so far along a contour. */
 export function placeAlong({ edges }: Pick<Shape, "edges">, along: number): OnContour {
   let before = 0;

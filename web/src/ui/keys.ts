@@ -23,6 +23,7 @@ const LIST: readonly (readonly [string, Word])[] = [
   ["R", "keyReverse"],
   ["A", "keyAlike"],
   ["Shift ⬚", "keyBox"],
+  ["M", "keyMeasure"],
   ["[  ]", "keyOrder"],
   ["Shift-F10", "keyMenu"],
   ["Esc", "keyEscape"],
@@ -124,6 +125,9 @@ export class Keys {
     x: () => this.#actions.skip(),
     r: () => this.#actions.reverse(),
     a: () => this.#actions.alike(),
+    m: () => {
+      this.#canvas.isMeasuring = !this.#canvas.isMeasuring;
+    },
     "[": () => void this.#actions.order(-1),
     "]": () => void this.#actions.order(1),
     "+": () => this.#canvas.zoom(ZOOM),
@@ -132,7 +136,8 @@ export class Keys {
     "0": () => this.#canvas.fit(),
     Enter: () => void this.#release(),
     Escape: () => {
-      if (!this.#release()) this.#desk.choose("all");
+      if (this.#canvas.isMeasuring) this.#canvas.isMeasuring = false;
+      else if (!this.#release()) this.#desk.choose("all");
     },
     ContextMenu: () => this.#menu(),
     F10: (event) => {

@@ -10,6 +10,7 @@ import { Canvas } from "./canvas.ts";
 import { Cutting } from "./cutting.ts";
 import { Decisions } from "./decide.ts";
 import { Desk } from "./desk.ts";
+import { set } from "./edits.ts";
 import { Fields } from "./fields.ts";
 import { Keys } from "./keys.ts";
 import { shown } from "./look.ts";
@@ -51,6 +52,7 @@ const appearance = new Appearance(
     matches.show();
     tree.name();
     results.name();
+    canvas.sayMeasured();
     say();
   },
   (colours) => {
@@ -101,6 +103,9 @@ function say(): void {
   get<HTMLButtonElement>("redo").disabled = !desk.canRedo;
   get<HTMLButtonElement>("cut").disabled = get<HTMLButtonElement>("save").disabled = !state || desk.isGone;
   document.body.dataset["settled"] = String(desk.isSettled);
+  const bridges = (desk.edited.job.read?.["bridges"] ?? []) as readonly unknown[];
+  get("bridges").hidden = !bridges.length;
+  get("bridge-count").textContent = String(bridges.length);
   report.show();
   decisions.show();
   void results.show();
@@ -151,6 +156,14 @@ function bind(): void {
   onClick("save-new", () => saveAll(true));
   onClick("undo", () => desk.undo());
   onClick("redo", () => desk.redo());
+  canvas.onMeasured = (text) => {
+    get("measure").ariaPressed = String(text !== undefined);
+    get("measured").textContent = text ?? "";
+  };
+  onClick("measure", () => {
+    canvas.isMeasuring = !canvas.isMeasuring;
+  });
+  onClick("no-bridges", () => desk.edit(set(desk.edited, "read", "bridges", undefined)));
   onClick("alike", () => actions.alike());
   onClick("box", () => {
     canvas.isBoxing = !canvas.isBoxing;

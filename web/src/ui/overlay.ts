@@ -29,6 +29,8 @@ export class Overlay {
   /** A place of the report, µm. */
   place: XY | undefined;
   rings: readonly Ring[] = [];
+  /** Places that are measured, µm. */
+  measured: readonly XY[] = [];
   /** Two corners of the box that is being drawn, pixels. */
   box: readonly [XY, XY] | undefined;
   walk: Wire | undefined;
@@ -60,6 +62,7 @@ export class Overlay {
       context.arc(...view.toPixel(place), isPresent ? 14 : 10, 0, 2 * Math.PI);
       context.stroke();
     }
+    this.#drawMeasured(context, view, colours);
     if (this.box) drawBox(context, this.box, colours);
     if (!this.place) return;
     context.strokeStyle = colours.wrong;
@@ -67,6 +70,26 @@ export class Overlay {
     context.beginPath();
     context.arc(...view.toPixel(this.place), 14, 0, 2 * Math.PI);
     context.stroke();
+  }
+
+  #drawMeasured(context: CanvasRenderingContext2D, view: View, { walk }: Colours): void {
+    const pixels = this.measured.map((place) => view.toPixel(place));
+    context.strokeStyle = context.fillStyle = walk;
+    context.lineWidth = 1.5;
+    context.beginPath();
+    pixels.forEach(([x, y], at) => {
+      if (at) context.lineTo(x, y);
+      else context.moveTo(x, y);
+    });
+    context.stroke();
+    for (const [x, y] of pixels) {
+      context.beginPath();
+      context.moveTo(x - 7, y);
+      context.lineTo(x + 7, y);
+      context.moveTo(x, y - 7);
+      context.lineTo(x, y + 7);
+      context.stroke();
+    }
   }
 
   #contours(context: CanvasRenderingContext2D, view: View, size: XY, colours: Colours): void {

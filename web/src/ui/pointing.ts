@@ -74,6 +74,7 @@ export function listenToPointers(element: HTMLCanvasElement, canvas: Canvas, des
   };
 
   const grab = (pixel: XY, event: PointerEvent): Grabbed | undefined => {
+    if (canvas.isMeasuring) return undefined;
     if (canvas.isBoxing || event.shiftKey) return boxed(pixel, event);
     const distance = ({ place }: Handle): number => {
       const [x, y] = view.toPixel(place);
@@ -108,6 +109,10 @@ export function listenToPointers(element: HTMLCanvasElement, canvas: Canvas, des
       if (!isPressed) canvas.hover(pixel && find(pixel, REACH));
     },
     tap: (pixel, event) => {
+      if (canvas.isMeasuring) {
+        canvas.measure(view.toPlace(pixel), (event.pointerType === "touch" ? FINGER : REACH) / view.scale);
+        return;
+      }
       const id = find(pixel, event.pointerType === "touch" ? FINGER : REACH);
       choose(id, event.shiftKey || event.ctrlKey || event.metaKey);
     },

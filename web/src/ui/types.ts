@@ -134,6 +134,8 @@ export interface Note {
   readonly up: Point;
 }
 
+export type Gap = readonly [number, number, number, number];
+
 /** What is not cut. */
 export interface Left {
   readonly edges: readonly Edge[];
@@ -155,6 +157,8 @@ export interface State {
   readonly contours: readonly Contour[];
   readonly starts: readonly Point[];
   readonly left: Left;
+  /** Pairs of open ends: x and y of both. */
+  readonly gaps?: readonly Gap[];
   readonly report: readonly Line[];
   readonly job: Job;
   readonly matches: readonly Match[];

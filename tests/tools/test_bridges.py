@@ -1,0 +1,76 @@
+"""Lines that somebody puts in between two ends of a drawing, kept in the job; and walls that two cuts leave thin."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import ezdxf
+import pytest
+from ezdxf import units
+
+from skg.errors import UserError
+from skg.job import file as job_files
+from skg.job.job import Job, MachineSetup
+from skg.job.read_options import Wishes
+from skg.pipeline.steps import cut_drawing, open_drawing
+
+#: An outline that is open by 0.4 mm at its lower left corner.
+GAP = (0.0, 0.0, 0.0, 0.4)
+
+
+def drawing(folder: Path, by: float = 0.0, *circles: tuple[float, float, float]) -> bytes:
+    """The outline, moved by so much to the right, with circles in it."""
+    page = ezdxf.new()
+    page.units = units.MM
+    corners = [(0, 0), (60, 0), (60, 40), (0, 40), (0, 0.4)]
+    for (x, y), (u, v) in zip(corners, corners[1:], strict=False):
+        page.modelspace().add_line((x + by, y), (u + by, v))
+    for x, y, r in circles:
+        page.modelspace().add_circle((x + by, y), r)
+    path = folder / "part.dxf"
+    page.saveas(path)
+    return path.read_bytes()
+
+
+def job(**read: object) -> Job:
+    return Job("part.dxf", read=Wishes(**{"open": None, **read}), machine=MachineSetup(wire=0.2))
+
+
+def test_a_bridge_closes_an_outline_and_is_kept(tmp_path: Path) -> None:
+    data = drawing(tmp_path)
+    with pytest.raises(UserError) as refused:
+        open_drawing(job(), data)
+    assert (refused.value.finding.code, refused.value.place) == ("open-refused", (0.0, 0.0))
+    asked = job_files.decoded(job_files.encoded(job(bridges=(GAP,))), "part.job.toml")
+    assert asked.read.bridges == (GAP,)
+    drawn = open_drawing(asked, data)
+    (contour,) = drawn.contours
+    assert contour.is_closed and len(contour.edges) == 4, "the bridge and the edge that it goes on are one"
+    cut = cut_drawing(asked, drawn)
+    assert cut.result.checked.off < 0.003
+    (joined,) = [finding for finding in cut.findings if finding.code == "ends-joined"]
+    assert joined["gap"] == pytest.approx(0.4)
+    # the drawing is saved anew, its ends a little further on, or somewhere else
+    assert open_drawing(asked, drawing(tmp_path, 0.3)).contours[0].is_closed
+    lost = open_drawing(job(open="cut", bridges=(GAP,)), drawing(tmp_path, 7))
+    assert "bridge-lost" in {finding.code for finding in lost.reading.report.report()}
+    assert not lost.contours[0].is_closed
+
+
+@pytest.mark.parametrize("bad", ["[[1, 2, 3]]", "[1, 2, 3, 4]", '"x"', "[[1, 2, 3, inf]]"])
+def test_bad_bridges(bad: str) -> None:
+    text = f'schema = 1\ndrawing = "part.dxf"\n[read]\nbridges = {bad}\n'
+    with pytest.raises(UserError) as refused:
+        job_files.load(text, "part.job.toml")
+    assert refused.value.finding.code == "wrong-value"
+
+
+def test_thin_walls(tmp_path: Path) -> None:
+    """0.3 mm between two openings, and 0.35 mm to the outline, are thinner than two cuts of 0.2 mm; 0.5 mm are not."""
+    circles = ((10, 20, 5), (20.3, 20, 5), (54.65, 20, 5), (30.8, 20, 5))
+    asked = job(bridges=(GAP,))
+    cut = cut_drawing(asked, open_drawing(asked, drawing(tmp_path, 0.0, *circles)))
+    walls = [finding for finding in cut.findings if finding.code == "thin-wall"]
+    assert [round(wall["wide"], 3) for wall in walls] == [0.3, 0.35]
+    assert walls[0]["kerf"] == pytest.approx(0.4) and walls[0].place == pytest.approx((15.15, 20), abs=0.01)
+    assert {walls[0].contour, walls[1].contour} <= set(range(5))

@@ -1,0 +1,74 @@
+"""Thin walls: what stays between two cuts, where these take more beside it than it is thick."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+
+from skg.geometry.contour import Edge
+from skg.geometry.plane import XY
+from skg.planning.route import PlannedContour
+
+#: Chords leave a contour by no more when a wall is measured, mm; and when walls are looked for.
+_FINE, _COARSE = 0.0002, 0.1
+#: No wire takes more than this to its middle, mm: what does is a cutter, whose walls are another matter.
+_WIRE = 0.5
+
+
+class Wall(NamedTuple):
+    """A wall between two contours: how thick it is, how much the cuts beside it take together, mm, and its middle where
+    it is thinnest."""
+
+    first: PlannedContour
+    second: PlannedContour
+    thick: float
+    kerfs: float
+    place: XY
+
+
+def thin_walls(routes: Sequence[PlannedContour]) -> list[Wall]:
+    """The walls that are thinner than what the cuts on their sides take, the thinnest first."""
+    closed = [route for route in routes if route.contour.is_closed and 0 < abs(route.passes[-1]) <= _WIRE]
+    if len(closed) < 2:
+        return []
+    kerfs = np.array([2 * abs(route.passes[-1]) for route in closed])
+    rings = np.array([shapely.linearrings(_ring(route, None)) for route in closed])
+    reach = 2 * kerfs.max() + _COARSE
+    ones, others = shapely.STRtree(rings).query(rings, predicate="dwithin", distance=reach)
+    is_pair = ones < others
+    ones, others = ones[is_pair], others[is_pair]
+    is_wall = [_is_wall(closed[one], closed[other]) for one, other in zip(ones.tolist(), others.tolist(), strict=True)]
+    ones, others = ones[is_wall], others[is_wall]
+    for number in np.unique([*ones, *others]).tolist():
+        rings[number] = shapely.linearrings(_ring(closed[number], _FINE))
+    thick = shapely.distance(rings[ones], rings[others])
+    walls = []
+    for one, other, wide in zip(ones.tolist(), others.tolist(), thick.tolist(), strict=True):
+        taken = float(kerfs[one] + kerfs[other])
+        # (contours that touch or cross are told of as such)
+        if not 0 < wide < taken:
+            continue
+        (x, y), (u, v) = shapely.get_coordinates(shapely.shortest_line(rings[one], rings[other])).tolist()
+        walls.append(Wall(closed[one], closed[other], wide, taken, ((x + u) / 2, (y + v) / 2)))
+    return sorted(walls, key=lambda wall: wall.thick)
+
+
+def _ring(route: PlannedContour, off: float | None) -> list[XY]:
+    """A contour as chords that leave it by no more, mm; None: as they are at hand."""
+    edges = route.contour.edges
+    if off is None:
+        return [point for edge in edges for point in edge.points()[:-1]]
+    return [point for edge in edges for point in _finely(edge, off)[:-1]]
+
+
+def _finely(edge: Edge, off: float) -> list[XY]:
+    return edge.points() if edge.is_line or edge.nodes else edge.parted(edge.chords(off))
+
+
+def _is_wall(one: PlannedContour, other: PlannedContour) -> bool:
+    """Tell whether material stays between two contours: two openings of a part, or one and the outline around it."""
+    inner, outer = max(one.depth, other.depth), min(one.depth, other.depth)
+    return inner % 2 == 1 and inner - outer <= 1
