@@ -52,7 +52,6 @@ const LABELS: Record<string, Word> = {
 /** Words of the fields that decide what no value is advised for. */
 const FIELDS: Record<string, Word> = {
   units: "units",
-  tolerance: "tolerance",
   wire: "wire",
   gap: "gap",
   offset: "fixOffset",
