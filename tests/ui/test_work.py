@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import random
+import re
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -531,6 +532,9 @@ def test_name_and_style_of_what_is_saved(saving: tuple[Page, Json, int], tmp_pat
     assert written == ["plate.job.toml", "DIE-1.nodrift.3b"]
     styled = tmp_path / "DIE-1.nodrift.3b"
     assert styled.read_bytes().startswith(b"N   1: B") and skg_style(styled) == tape
+    for language, is_chinese in (("en", False), ("zh", True)):
+        sheet = page.get(f"/api/run/{number}/sheet.svg?language={language}").body.decode()
+        assert bool(re.search("[\u4e00-\u9fff]", sheet)) is is_chinese, "the sheet is in the page's language"
     for bad in ({"name": "../x"}, {"name": ".x"}, {"style": "none"}):
         assert page.call("POST", "/api/save", body | bad | {"overwrite": True}).status == 400
     # the rest of the tape, from a block on

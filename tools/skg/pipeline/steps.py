@@ -166,9 +166,12 @@ def _findings(job: Job, drawn: DrawnJob, account: Account, result: CutResult) ->
     wanted = wanted_of(job, drawn)
     if stock := max((want.passes[-1] for want in wanted if want.cut), default=0.0):
         report.append(Finding("last-pass-leaves", stock=stock))
+    # (a contour with a tab of its own is what it is)
+    own = {number for number, chosen in drawn.chosen(job).items() if chosen.partial.tab is not None}
+    others = [want for number, want in enumerate(wanted) if want.cut and number not in own]
     for is_asked, frees in (
-        (any(want.tab and want.cut for want in wanted), "part"),
-        (any(want.slug_tab and want.cut for want in wanted), "slug"),
+        (any(want.tab for want in others), "part"),
+        (any(want.slug_tab for want in others), "slug"),
     ):
         if is_asked and not any(route.tabs for route in result.routes if route.frees == frees):
             report.append(Finding(f"no-{frees}-has-tab"))

@@ -16,6 +16,7 @@ from skg.job.job import Chosen, Job
 from skg.job.matching import Match
 from skg.job.wanted import Partial
 from skg.messages.finding import Finding
+from skg.messages.render import speech
 from skg.pipeline.steps import (
     CutDrawing,
     DrawnJob,
@@ -107,8 +108,8 @@ class Desk:
         files = {"tape": cut.result.data, "program": cut.result.program.encode("ascii"), "job": self.job()}
         return shown.result(cut), files
 
-    def sheet(self, number: int, tape: str, form: str) -> bytes:
-        """The setup sheet of a run."""
+    def sheet(self, number: int, tape: str, form: str, language: str) -> bytes:
+        """The setup sheet of a run, in a language; none: that of this process."""
         if self._cut is None or self._cut[0] != number:
             raise UserError(Finding("page-sheet-gone"))
         try:
@@ -118,7 +119,11 @@ class Desk:
         _, job, cut = self._cut
         with TemporaryDirectory(prefix="skg-") as folder:
             path = str(Path(folder) / f"sheet.{form}")
-            write_sheet(cut.result, Facts(job.drawing, tape, cut.account.units), path, form)
+            before, speech.language = speech.language, language or speech.language
+            try:
+                write_sheet(cut.result, Facts(job.drawing, tape, cut.account.units), path, form)
+            finally:
+                speech.language = before
             return Path(path).read_bytes()
 
     def _present(self) -> DrawnJob:

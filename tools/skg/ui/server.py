@@ -22,6 +22,7 @@ from typing import NoReturn
 from urllib.parse import parse_qs, unquote
 
 from skg.errors import UserError
+from skg.messages.catalogue import LANGUAGES
 from skg.messages.finding import Finding
 from skg.terminal import remark
 from skg.ui.json_text import encoded, said, told
@@ -379,7 +380,8 @@ class Handler(BaseHTTPRequestHandler):
         self._send_json(self.server.session.cancel(int(number)))
 
     def _file(self, query: dict[str, str], number: str, kind: str) -> None:
-        self._send(self.server.session.file(int(number), kind), TYPES[kind])
+        file = self.server.session.file(int(number), kind, _language(query.get("language")))
+        self._send(file, TYPES[kind])
 
     def _save(self, query: dict[str, str]) -> None:
         data = self._json()
@@ -389,7 +391,8 @@ class Handler(BaseHTTPRequestHandler):
             _field(data, key, str) if key in data else usual for key, usual in (("name", ""), ("style", "punch"))
         )
         is_over, is_short = (data.get(key) is True for key in ("overwrite", "short"))
-        written = self.server.session.save(run, kinds, is_over, name, style, is_short)
+        language = _language(data.get("language"))
+        written = self.server.session.save(run, kinds, is_over, name, style, is_short, language)
         self._send_json({"written": written})
 
     def _rest(self, query: dict[str, str], number: str, block: str) -> None:
@@ -474,6 +477,11 @@ def _field(data: dict, name: str, kind: type) -> object:
         expected = {int: "a whole number", list: "a list", dict: "an object", str: "a text"}[kind]
         raise Refused(HTTPStatus.BAD_REQUEST, f"{name}: expected {expected}")
     return value
+
+
+def _language(value: object) -> str:
+    """A language that is asked for, nothing for any other."""
+    return value if value in LANGUAGES else ""
 
 
 def _number(query: dict[str, str], name: str) -> int | None:

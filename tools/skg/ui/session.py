@@ -467,17 +467,20 @@ class Session:
                 self._worker.end()
             return run.data()
 
-    def file(self, number: int, kind: str) -> bytes:
-        """A file of a run; the sheet is drawn when it is asked for."""
+    def file(self, number: int, kind: str, language: str = "", tape: str = "") -> bytes:
+        """A file of a run; the sheet is drawn when it is asked for, in a language, with the name of the tape."""
         run = self._known(number)
         if run.state != "done":
             raise UserError(Finding("run-without-tape", number=number))
-        if kind not in run.files:
+        if kind in run.files:
+            return run.files[kind]
+        tape = tape or run.result["tape_name"]
+        key = f"{kind} {language} {tape}"
+        if key not in run.files:
+            form = kind.partition(".")[2] or "pdf"
             with self._called():
-                run.files[kind] = self._worker.call(
-                    "sheet", number, run.result["tape_name"], kind.partition(".")[2] or "pdf"
-                )
-        return run.files[kind]
+                run.files[key] = self._worker.call("sheet", number, tape, form, language)
+        return run.files[key]
 
     # Saving.
 
@@ -522,10 +525,12 @@ class Session:
         name: str = "",
         style: str = "punch",
         is_short: bool = False,
+        language: str = "",
     ) -> list[str]:
         """Write files of a run beside the drawing: their names. Some that are there are a `Conflict`.
 
-        `name`: that of the files, without endings, else the drawing's; `style`: of the tape; `is_short`: see `named`.
+        `name`: that of the files, without endings, else the drawing's; `style`: of the tape; `is_short`: see `named`;
+        `language`: of the sheet.
         """
         if self._path is None:
             raise UserError(Finding("no-folder"))
@@ -536,10 +541,10 @@ class Session:
             raise UserError(Finding("bad-request", detail="run: expected a number, for what is made by a run"))
         names, folder = self.named(name, is_short), self._path.parent
         if number is not None:
-            files = {kind: self.file(number, kind) for kind in SAVED if kind in kinds}
+            names["tape"] = names["tape"] if name else self._known(number).result["tape_name"]
+            files = {kind: self.file(number, kind, language, names["tape"]) for kind in SAVED if kind in kinds}
             if "tape" in kinds:
                 files["tape"] = self.styled(number, style)
-            names["tape"] = names["tape"] if name else self._known(number).result["tape_name"]
         else:
             files = {"job": self._job_file()}
         files = {names[kind]: data for kind, data in files.items()}

@@ -203,6 +203,8 @@ export class Results {
     this.#walkBar.say();
     this.#list.grown(false);
     this.#sayGoOn();
+    this.#drawn = undefined;
+    void this.#bringSheet();
     this.say();
   }
 }

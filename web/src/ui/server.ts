@@ -1,4 +1,5 @@
 /** The calls to the server of `skg ui`. */
+import { spoken } from "../language.ts";
 import type { Empty, Fault, FileKind, Job, Later, Named, Put, Run, Said, State, Style, Ways } from "./types.ts";
 
 /** The server refused, and said why. */
@@ -62,7 +63,7 @@ export class Server {
   }
 
   async file(run: number, what: FileKind | "sheet.svg"): Promise<Blob> {
-    return (await this.#call("GET", `run/${run}/${what}`)).blob();
+    return (await this.#call("GET", `run/${run}/${what}?language=${spoken()}`)).blob();
   }
 
   /** The job as a file, cut or not. */
@@ -72,7 +73,8 @@ export class Server {
 
   /** Writes files beside the drawing: their names. */
   async save(run: number | null, what: readonly FileKind[], overwrite: boolean, named: Named): Promise<string[]> {
-    return (await this.#json<{ written: string[] }>("POST", "save", { run, what, overwrite, ...named })).written;
+    return (await this.#json<{ written: string[] }>("POST", "save", { run, what, overwrite, language: spoken(), ...named }))
+      .written;
   }
 
   /** The tape of a run in a style, from a block on. */
