@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 import re
 import resource
 import signal
@@ -271,3 +272,27 @@ def test_core_and_board_know_nothing_of_it() -> None:
     ):
         for path in (ROOT / "emu").glob(f"{name}*.[ch]"):
             assert set(re.findall(r'#include "(.*)"', path.read_text())) <= own, path
+
+
+def test_sanitizers_find_nothing_in_names(part: Part, tmp_path: Path) -> None:
+    """Damaged files of names, and the debugger's own commands, under the sanitizers: read or refused."""
+    chance, names = random.Random(7), (ROMS / "skg.sym").read_bytes()
+    commands = b"list\noperation\ncode\nfloats\nbreak PEEK0\nstack\nm\nstep\nlist FFFF\nbreak\n"
+    sym = tmp_path / "odd.sym"
+    for _ in range(40):
+        made = bytearray(names)
+        for _ in range(chance.randint(1, 30)):
+            at = chance.randrange(len(made))
+            kind = chance.randrange(4)
+            if kind == 0:
+                made[at] = chance.randrange(256)
+            elif kind == 1:
+                del made[at : at + chance.randint(1, 200)]
+            elif kind == 2:
+                made[at:at] = chance.choice([b"X" * 5000, b"\n" * 50, b" \0", b"= $FFFFFFFFF", b"-1"])
+            else:
+                made[at:at] = made[at : at + chance.randint(1, 3000)]
+        sym.write_bytes(made)
+        command = ["build/asan/skg80", "--debug", "--sym", sym, "--max-cycles", "200000", part(END)]
+        done = subprocess.run(command, input=commands, capture_output=True)
+        assert done.returncode in (0, 1, 2, 3), done.stderr[-2000:]

@@ -111,7 +111,7 @@ def test_help_loads_no_command() -> None:
         "print([name for name in sys.modules if name.startswith(slow) and not name.startswith(messages)])"
     )
     done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
-    assert done.stdout == "['skg.errors', 'skg.garbage', 'skg.terminal', 'skg.cli']\n"
+    assert done.stdout == "['skg.interrupts', 'skg.errors', 'skg.garbage', 'skg.terminal', 'skg.cli']\n"
 
 
 def test_cut_starts_without_the_reference() -> None:

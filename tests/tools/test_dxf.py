@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import os
 import subprocess
+import sys
 import tracemalloc
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
@@ -607,3 +608,14 @@ if __name__ == "__main__":
     lines = table.split("\n\n", 1)
     rows = "".join(row(make) for make in drawings.ALL)
     PAGE.write_text(before + head + "\n".join(lines[0].split("\n")[:2]) + "\n" + rows + "\n" + lines[1])
+
+
+def test_the_same_tape_is_the_same_drawing(tmp_path: Path) -> None:
+    """Byte by byte, whenever it is drawn, and in whatever order a process has its sets."""
+    made = []
+    for seed in ("1", "2", "3"):
+        path = tmp_path / f"{seed}.dxf"
+        command = [sys.executable, "-m", "skg", "dxf", ROOT / "examples" / "die.3b", "-o", path]
+        subprocess.run(command, env=os.environ | {"PYTHONHASHSEED": seed}, check=True, capture_output=True)
+        made.append(path.read_bytes())
+    assert made[0] == made[1] == made[2]

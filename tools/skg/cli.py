@@ -12,14 +12,17 @@ from difflib import get_close_matches
 from importlib import import_module
 from typing import NoReturn
 
-import click
+from skg.interrupts import interrupts_end
 
-from skg.errors import UserError, of_system
-from skg.garbage import collect_rarely
-from skg.messages.finding import Finding, Phrase
-from skg.messages.help import speak, translated, translations
-from skg.messages.render import language_of_system, speech
-from skg.terminal import tell
+with interrupts_end():
+    import click
+
+    from skg.errors import UserError, of_system
+    from skg.garbage import collect_rarely
+    from skg.messages.finding import Finding, Phrase
+    from skg.messages.help import speak, translated, translations
+    from skg.messages.render import language_of_system, speech
+    from skg.terminal import tell
 
 # numpy's linear algebra, which skg does without, would start a thread for each processor: a quarter of a short run.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -169,7 +172,7 @@ def main() -> None:
         _fail(error.format_message())
     except UserError as error:
         _fail(str(error))
-    except click.Abort:
+    except (click.Abort, KeyboardInterrupt):
         sys.exit(130)
     except BrokenPipeError:
         _leave(1)

@@ -100,7 +100,10 @@ def _new_file(path: str) -> Iterator[BinaryIO]:
     """
     target = Path(os.path.realpath(path))
     with _named(path):
-        old = target.stat() if target.exists() else None
+        try:
+            old = target.stat()
+        except FileNotFoundError:
+            old = None
         if old and not S_ISREG(old.st_mode):
             with target.open("wb") as stream:
                 yield stream

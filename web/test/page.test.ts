@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
+import { deflateSync } from "node:zlib";
 import { CATALOGUE } from "../src/catalogue.ts";
 import { recognize, tooLarge } from "../src/files.ts";
 import { isWord, preferred, t } from "../src/language.ts";
@@ -32,6 +33,13 @@ test("a link cut short, at any place, or with a wrong character is no program", 
   await assert.rejects(unpack(code.slice(0, middle) + (code[middle] === "A" ? "B" : "A") + code.slice(middle + 1)), LinkError);
   await assert.rejects(unpack("%%%"), LinkError);
   await assert.rejects(unpack(await pack("X".repeat(70_000))), LinkError);
+});
+
+test("a link that would unpack to much is left at its limit", async () => {
+  const bytes = deflateSync(Buffer.alloc(256 * 1024 * 1024));
+  const before = process.memoryUsage().rss;
+  await assert.rejects(unpack(bytes.toString("base64url")), LinkError);
+  assert.ok(process.memoryUsage().rss - before < 128 * 1024 * 1024);
 });
 
 test("files are what they are", () => {

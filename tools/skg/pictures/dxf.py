@@ -120,7 +120,12 @@ def write(
     ezdxf takes a kilobyte and a tenth of a millisecond for each entity. So it writes the drawing without its entities,
     and one of every kind and layer as the pattern of all others.
     """
+    # (the same drawing is the same file: without the present time, and marks made up anew each time)
+    ezdxf.options.write_fixed_meta_data_for_testing = True
     drawing, text = ezdxf.new("R2010", units=ezdxf.units.MM), StringIO()
+    # (else ezdxf adds them in any order)
+    for name in ("ACDBPLACEHOLDER", "LAYOUT"):
+        drawing.classes.add_class(name)
     for name, colour in (LAYERS | {HOLES: HOLES_COLOUR} if holes else LAYERS).items():
         drawing.layers.add(name, color=colour)
     drawing.header["$PDMODE"], drawing.header["$PDSIZE"] = 34, 1.0

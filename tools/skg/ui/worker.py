@@ -6,8 +6,8 @@ import multiprocessing
 import os
 import signal
 import time
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from multiprocessing.connection import Connection
 from pathlib import Path
 from traceback import extract_tb
@@ -72,7 +72,8 @@ class Worker:
         context = multiprocessing.get_context("spawn")
         self._connection, far = context.Pipe()
         process = context.Process(target=work, args=(far, speech.language), name="skg ui worker", daemon=True)
-        process.start()
+        with _interrupts_blocked():
+            process.start()
         # (another thread may end it from here on)
         self._process, self._is_ended = process, False
         far.close()
@@ -104,6 +105,19 @@ class Worker:
             if self._is_ended:
                 raise Ended(Finding("cancelled"), True) from None
             raise Ended(Finding("process-ended", by=_ended_by(self._process.exitcode)), False) from None
+
+
+@contextmanager
+def _interrupts_blocked() -> Iterator[None]:
+    """Let a process that begins here never hear of ctrl-C, which goes to all of a terminal: while it imports, too."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _ended_by(code: int) -> str | Phrase:
