@@ -156,6 +156,41 @@ describe("the page in firefox", { skip: existsSync(FIREFOX) ? false : "firefox-e
     await page.close();
   });
 
+  test("a step of the lessons, the plate under the wire, what this is", async () => {
+    const page = await visit("#lesson=2");
+    const text = (selector: string) => page.$eval(selector, (element) => element.textContent ?? "").catch(() => "");
+    await until(page, "the step", async () => (await text("#lesson-title")) === "2/10 A line");
+    await until(page, "cut", async () => /^7 blocks/.test(await sum(page)));
+    await until(page, "at its prompt", async () => (await text("#state")) === "at its prompt");
+    await page.click("#lines .cm-line:nth-child(2)");
+    await page.keyboard.press("Home");
+    await page.keyboard.down("Shift");
+    await page.keyboard.press("End");
+    await page.keyboard.up("Shift");
+    await page.keyboard.type("20 CUT X,Y:50,-X:30,-Y");
+    await page.click("#run");
+    await until(page, "right", async () => /^Right/.test(await text("#lesson-check")));
+    await page.$eval("#scrub", (element) => {
+      const scrub = element as HTMLInputElement;
+      scrub.value = scrub.max;
+      scrub.dispatchEvent(new Event("input"));
+    });
+    await drawn(page);
+    const covered = await page.$eval("#over", (element) => {
+      const canvas = element as HTMLCanvasElement;
+      const { data } = (canvas.getContext("2d") as CanvasRenderingContext2D).getImageData(0, 0, canvas.width, canvas.height);
+      return data.filter((value, at) => at % 4 === 3 && value === 255).length / (data.length / 4);
+    });
+    assert.ok(covered > 0.3, `${covered} of the drawing is plate`);
+    await page.click("#about");
+    await until(page, "what this is", async () =>
+      page.$eval("#manual-frame", (frame) =>
+        /孙宝成/.test((frame as HTMLIFrameElement).contentDocument?.body?.textContent ?? ""),
+      ),
+    );
+    await page.close();
+  });
+
   test("one file, from a double click", async () => {
     const page = await browser.newPage();
     await page.setViewport({ width: 1400, height: 900 });
