@@ -502,6 +502,7 @@ export class Drawing {
     const [walk, underlay, extent, layout] = [this.#walk, this.#underlay, this.#extent, this.#layout];
     if (!walk || !underlay || !extent || layout.blocks.length > MANY) return false;
     if (underlay.draw(context, { view: this.view, layout, extent, walk, wire: this.#wireWidth })) this.#ask(false);
+    drawRuler(context, this.view, this.#size, this.#colours.ruler);
     return true;
   }
 

@@ -71,8 +71,8 @@ export class Plate implements Underlay {
     context.fillStyle = this.steel.floor;
     context.fillRect(...sheet);
     context.fillStyle = steel;
-    // (what is left around a part that is cut out falls back)
-    context.globalAlpha = parts.length ? 0.3 : 1;
+    // (when the last one is cut out, what is left around the parts falls back)
+    context.globalAlpha = parts.length && done.length === this.#contours.length ? 0.3 : 1;
     context.fillRect(...sheet);
     context.globalAlpha = 1;
     for (const { outline } of parts) context.fill(outline);
