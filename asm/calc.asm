@@ -1,6 +1,6 @@
 ; calc.asm - the calculator: byte-code over a stack of floats
-; Offers: CALINI RUNBC CALC0 ODUP OOVR COPY5 ODRP CALOP CALPOP OJN OJZ OJMP OJCY ODBL XSIG XMAX XE6N
-;         ERGEO XXCH OSWP EXCHC
+; Offers: FSP CALINI RUNBC CALC0 ODUP OOVR COPY5 ODRP CALOP CALPOP OJN OJZ OJMP OJCY ODBL XSIG XMAX
+;         XE6N ERGEO XXCH OSWP EXCHC
 ; Uses:   consts float start
 ; Room:   216 bytes
 ;

@@ -1,7 +1,7 @@
 ; corner.asm - where the wire goes from one element to the next: corners, fillets, the entry; which curves are the same
 ; Offers: JOINED CPYEL CPYPL FILLET TON PASSED OFFCHK CORND FIRST PATC SAMEF SAMEC SAMEL
 ; Uses:   [post] calc consts float geom round route start value
-; Room:   482 bytes
+; Room:   479 bytes
 
 ; (FILLET comes here when it turns by nothing)
 FILL9:  DB      QDOT,QE6N,QEND  ; -             straight on, or straight back
@@ -92,8 +92,8 @@ PASS1:  DB      QNORM,QVEC      ; tx ty
         DB      LC2,LCR,QADD,ST0 ; tx ty                t0 = r of the wire's path
         DB      QCA,LKX,LKY,QTOK,QNORM,QVEC ; tx ty kx ky
         DB      QCA,LAX,LAY,QTOK,QNORM ; tx ty kx ky  a = of the entry
-        DB      QCHDA,SB0,SB1   ; tx ty         b = chord to K
-        DB      QCHDA,SA0,SA1   ; -             a = chord to T
+        DB      QCHDA,QSB       ; tx ty         b = chord to K
+        DB      QCHDA,QSA       ; -             a = chord to T
         DB      QVEC,QFAR,QJN   ; -             T is the entry
         DB      PASS2-$
         DB      LB0,LB1,QFAR,QJN ; -            K is the entry
@@ -171,7 +171,7 @@ NAMED1: DB      QDOT,QE6N       ; -             there and back
         DB      QPTOK           ; -
         DB      LCR,LNR,QE6D    ; -             no crossing any more
 NAMED2: DB      LCR             ; R
-NAMED3: DB      QXCH,QNEG,QALNG,QJMP ; -        b moved along a
+NAMED3: DB      QXCH,QALNG,QJMP ; -             b moved along a
         DB      ATOK-$
 
 ; FIRST - N is the first element: the wire goes to it

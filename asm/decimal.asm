@@ -1,7 +1,7 @@
 ; decimal.asm - numbers as decimal digits: read, printed
 ; Offers: DECOUT PRDEC DECIN LEXDEC TEN DIGIT LEXCH
 ; Uses:   calc consts float start
-; Room:   451 bytes
+; Room:   459 bytes
 ;
 ; Decimal numbers.  They are scaled by one multiplication or division by a power of ten,
 ; which is exact up to 10^13.  So DECIN gives the nearest float to up to 9 digits, and
@@ -45,13 +45,18 @@ FTEN4:  DB      CALC,QMUL,QJMP  ; x*p
 
 ; FDIG - divides a whole number by 10
 ; In:  D E H L   Out: D E H L, A = remainder, Z: it is 0, CY clear, B = 0, C = C+1   Clobbers nothing else
-; Cycles: 2,500; below 65536 1,300
+; Cycles: 2,500; below 65536 1,300, below 256 700
 FDIG:   MVI     B,32
         MOV     A,D
         ORA     E
         JNZ     FDIG0
         MVI     B,16            ; the high half is 0: start behind it
         XCHG
+        ORA     D
+        JNZ     FDIG0
+        MOV     D,E             ; so is the next byte
+        MOV     E,A
+        MVI     B,8
 FDIG0:  XRA     A
 FDIG1:  XCHG
         DAD     H

@@ -76,9 +76,10 @@ LAST1:  DB      QDRP,QDRP,LB1,LB0,QJMP ; y x    (its length does not matter: bot
 ;          then the span to it goes out
 ; In:  b = w: to the node that arrives from node 2, t5 = w*w   Out: ERR 06 when it is node 1
 ; Clobbers all
-MIDDLE: DB      CALC,QXCH,L1X,L2X,L1Y,L2Y,QWAY ; v*v a = w, b = -v: to node 1 from node 2
-        DB      QDIF,QFAR,QE6N  ; v*v
-        DB      LT5,QSWP,QDIV,QALNG ; -         a = w + v*(w*w)/(v*v)
+MIDDLE: DB      CALC,QXCH,LT5   ; w*w
+        DB      L1X,L2X,L1Y,L2Y,QWAY ; w*w v*v  a = w, b = -v: to node 1 from node 2
+        DB      QDIF,QFAR,QE6N  ; w*w v*v
+        DB      QDIV,QNEG,QALNG ; -             a = w + v*(w*w)/(v*v)
         DB      QVEC,QUNIT,LA1,LA0 ; y x
 MIDD1:  DB      S2U,S2V,QEND    ; -
 ; (fall into SPAN)
@@ -138,15 +139,15 @@ XCHRD:  DB      L1U,L2U,QADD    ; u
 
 ; QMIRR: b*b -> y x: the vector a mirrored about b; behind QCHRD: the tangent that is not known, the
 ; other one mirrored about the chord
-XMIRR:  DB      QDOT,QDBL,QSWP,QDIV,QALNG ; -
+XMIRR:  DB      QDOT,QDBL,QNEG,QSWP,QDIV,QALNG ; -
         DB      LA1,QNEG,LA0,QNEG+QRET  ; y x
 
 ; QBIAR: behind QCHRD: where the arcs of the biarc meet, MX MY = from node 1 to M; ERR 06
-XBIAR:  DB      ST1,QDOT,QDUP,QSQ ; along along^2
-        DB      QXCH,L2U,L1U,L2V,L1V,QWAY ; along along^2 |u-t|^2  a = v, b = u-t
-        DB      LT1,QMUL,QADD,QSQRT,QADD ; below
-        DB      QDUP,QNEAR,QSUB,QE6N ; below
-        DB      LT1,QSWP,QDIV,QALNG ; -         a = v + d*(t-u)
+XBIAR:  DB      QDUP,ST1,QDOT,QDUP,QSQ ; v*v along along^2
+        DB      QXCH,L1U,L2U,L1V,L2V,QWAY ; v*v along along^2 |t-u|^2  a = v, b = t-u
+        DB      LT1,QMUL,QADD,QSQRT,QADD ; v*v below
+        DB      QDUP,QNEAR,QSUB,QE6N ; v*v below
+        DB      QDIV,QALNG      ; -             a = v + d*(t-u)
         DB      LA0,QHALF,QMUL,SMX,LA1,QHALF,QMUL,SMY,QRET ; -
 
 ; ARCW - from a node to the joint

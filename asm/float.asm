@@ -1,7 +1,7 @@
 ; float.asm - numbers of 40 bits
 ; Offers: FSUB FADD OSQ FMUL FDIV FABS FNEG FSGN FITOF FTOI16 FWHOLE FFLR FSQR FTG FCOS FSIN FATG
 ; Uses:   calc consts start
-; Room:   1091 bytes
+; Room:   1088 bytes
 ;
 ;   byte    0          1          2          3          4
 ;       +--------+ +--------+ +--------+ +--------+ +--------+
@@ -737,7 +737,7 @@ FTG:    DB      CALC,QDUP,QSIN,QSWP,QCOS,QDIV+QRET ; tan x
 
 ; FCOS - cosine
 ; In:  HL -> x   Out: x; ERR 05 as FSIN   Clobbers all
-FCOS:   DB      CALC,QABS,Q90,QSWP,QSUB      ; 90-|x|
+FCOS:   DB      CALC,QABS,QNEG,Q90,QADD ; 90-|x|
         DB      QSIN+QRET               ; cos x
 
 ; FSIN - sine
@@ -746,7 +746,7 @@ FCOS:   DB      CALC,QABS,Q90,QSWP,QSUB      ; 90-|x|
 FSIN:   MOV     A,M
         CPI     0A2H
         JNC     FOVF
-        DB      CALC,QDUP,Q90,QDBL,QDIV ; x x/180
+        DB      CALC,QDUP,QI180,QMUL    ; x x/180
         DB      QHALF,QADD,QFLR         ; x k           k half turns
         DB      Q90,QMUL,QDBL,QSUB      ; r             -90...90
         DB      QI64,QMUL,QEND          ; r/64
@@ -768,15 +768,14 @@ FSER:   CALL    OOVR            ; y c1
         INX     D
         PUSH    D
         DB      CALC,QOVR,QSQ,QDUP,QEND ; y c1 z z
-        POP     D                       ; (QDUP leaves HL -> last byte of z)
+        POP     D
         CALL    FSER1           ; y c1 z Q
         DB      CALC,QMUL,QSUB  ; y P
         DB      QOVR,QMUL,QADD+QRET     ; y+y*P
 
 ; FSER1 - z to Q(z), on top of the calculator's stack
-; In:  DE -> table from 80H+e on, HL -> last byte of z   Clobbers all
-FSER1:  LXI     B,-4
-        DAD     B
+; In:  DE -> table from 80H+e on   Clobbers all
+FSER1:  LHLD    FSP
         PUSH    H               ; -> z, for FNRM
         LDAX    D
         INX     D
@@ -841,21 +840,21 @@ CATG:   DB      07DH,0D6H,088H,0F9H,06FH        ; -0.1047534453
 
 ; FATG - arc tangent
 ; In:  HL -> x   Out: x, between -90 and 90   Clobbers all
-FATG:   DB      CALC,Q90,QOVR,QABS,QEND ; x 90 s        s = |x|
+FATG:   DB      CALC,QDUP,QABS,QEND     ; x s           s = |x|
         MOV     A,M                     ; (QABS leaves HL -> s)
         CPI     82H
         JNC     FATG2           ; from 2 up
         CPI     80H
         JNC     FATG1           ; from 1/2 up
-        DB      CALC,QSWP,QDRP,Q0,QSWP,Q1 ; x 0 s 1
+        DB      CALC,Q0,QSWP,Q1         ; x 0 s 1
         DB      QJMP
         DB      FATG3-$
-FATG1:  DB      CALC,QSWP,QHALF,QMUL,QSWP ; x 45 s
+FATG1:  DB      CALC,Q90,QHALF,QMUL,QSWP ; x 45 s
         DB      QDUP,Q1,QSUB            ; x 45 s s-1
         DB      QSWP,Q1,QADD            ; x 45 s-1 s+1
         DB      QJMP
         DB      FATG3-$
-FATG2:  DB      CALC,QM1,QSWP           ; x 90 -1 s
+FATG2:  DB      CALC,Q90,QSWP,QM1,QSWP  ; x 90 -1 s
 FATG3:  DB      QI64,QMUL,QDIV,QEND     ; x base y      y = 64 times the quotient
         LXI     D,CATG
         CALL    FSER

@@ -1,8 +1,8 @@
 ; geom.asm - the operations of language.md, section 2.1, as calculator code
-; Offers: BINOPK BINOP BINKND RSTAR XUNIT XSA XTOA SXS BELT XDOT XCRS XVEC XDIF XCENT XWAY XSS XHYP
-;         XFAR XALNG XROTV XTURN XSB XLEG XE6D
+; Offers: BINOPK BINOP BINKND RSTAR XUNIT XSA SXS BELT XDOT XCRS XVEC XDIF XCENT XWAY XSS XHYP XFAR
+;         XALNG XROTV XTURN XSB XLEG XE6D
 ; Uses:   calc consts float start value
-; Room:   511 bytes
+; Room:   514 bytes
 ;
 ; The left operand stands in a0 a1 a2, the right one in b0 b1 b2, unused ones zero:
 ; a point is a circle of radius 0, a number a point on the X axis, a rotation about O one
@@ -136,17 +136,17 @@ GEOTAB: DB      RPLU+ONN,RPLU+OPP
         DB      KINDS+KTURN+1
 
 ; P+P, D+D: a1 and b1 of a number are 0; P-P, D-D
-GADD:   DB      QM1,QALNG+QRET          ; -
-GSUB:   DB      Q1,QALNG+QRET           ; -
+GADD:   DB      Q1,QALNG+QRET           ; -
+GSUB:   DB      QM1,QALNG+QRET          ; -
 ; P#S: foot; P/S, C/S: mirror image; S/S: mirrored and reversed
-GFOOT:  DB      QDOT,LB2,QSUB           ; e
+GFOOT:  DB      LB2,QDOT,QSUB           ; e
         DB      QALNG+QRET              ; -
-GMIRR:  DB      QDOT,LB2,QSUB           ; e
+GMIRR:  DB      LB2,QDOT,QSUB           ; e
         DB      QDBL                    ; 2e
         DB      QALNG+QRET              ; -
-GMIRS:  DB      QDOT,QDBL               ; 2c            c = n1*n2
-        DB      LA2,QOVR,LB2,QMUL       ; 2c gamma 2c*g
-        DB      QSUB,SA2                ; 2c
+GMIRS:  DB      QDOT,QDBL,QNEG          ; -2c           c = n1*n2
+        DB      QDUP,LB2,QMUL,LA2       ; -2c -2c*g gamma
+        DB      QADD,SA2                ; -2c
         DB      QALNG+QRET              ; -
 ; S:P, S:C: the parallel that leaves C along its direction
 GPARC:  DB      QDOT,LB2,QJMP           ; n*c r
@@ -173,7 +173,7 @@ XUNIT1: DB      QDUP,ST3,QABS           ; x y |d|
         DB      QNEAR,QSUB,QE6N         ; x y
 ; (for GDIV too)
 XUNIT2: DB      LT3,QDIV,SA1            ; x
-        DB      LT3,QDIV,QTOA+QRET      ; -
+        DB      LT3,QDIV,SA0,QRET      ; -
 
 ; P#A, C#A, P#(A:P), C#(A:P)
 GROTP:  DB      LB1,LA0,QSUB            ; dx
@@ -181,13 +181,10 @@ GROTP:  DB      LB1,LA0,QSUB            ; dx
         DB      QROTV                   ; -
         DB      QDIF                    ; dx dy         back from there
 ; QSA: a0 a1 = a vector
-XSA:    DB      SA1                     ; x
-; (fall into XTOA)
-; QTOA: a0 = a number
-XTOA:   DB      SA0,QRET                ; -
+XSA:    DB      SA1,SA0,QRET            ; -
 ; P*D, D*D; D*P: 0 - (-D)*P
 GMULT:  DB      QXCH                    ; -
-GNMUL:  DB      LA0,QNEG,Q0,SA0         ; -D
+GNMUL:  DB      LA0,Q0,SA0              ; D
         DB      QALNG+QRET              ; -
 ; D#A: polar point, (D,0) turned
 GPOLAR: DB      QROTV+QRET              ; -
@@ -205,29 +202,29 @@ GSXS:   DB      LA2,LB1,QMUL            ;
 GCXS:   DB      LA2,QNEG,SA2,QXCH       ; -
 ; S*C: foot of the centre, then along the line; to the left of S and C turning
 ; counter-clockwise that is forward
-GSXC:   DB      QDOT,LA2,QSUB           ; e             centre right of S
-        DB      QDUP,QABS               ; e |e|
-        DB      LB2,QABS,QSUB           ; e gap
+GSXC:   DB      LA2,QDOT,QSUB           ; e             centre left of S
+        DB      QDUP,ST2,QABS           ; |e|           t2 = e
+        DB      LB2,QABS,QSUB           ; gap
 ; (and the end of GCXC) Crossing of a line, given by its normal a0 a1, with the circle b;
-; on the stack: how far the centre lies to its right, how far they miss; when they touch,
+; t2 is how far the centre lies to its left; on the stack: how far they miss; when they touch,
 ; the place is on that circle
-GSXC1:  DB      QSWP,ST2,LB2,QABS,ST3,QLEG ; h
+GSXC1:  DB      LB2,QABS,ST3,QLEG       ; h
         DB      LB2,QSIG,QXCH           ; +-h
         DB      LT2,QALNG               ; +-h           the foot
-        DB      LB1,LB0,QNEG,QSB        ; +-h           b = backwards
+        DB      LB1,QNEG,LB0,QSB        ; +-h           b = forwards
         DB      QALNG+QRET              ; -
 ; C1*C2: the crossing of C1 with the line through both crossings, whose right
 ; normal is the unit vector a from centre to centre, at c = (d^2+r1^2-r2^2)/2d
 ; from the first centre, which goes to b.
 GCXC:   DB      QDIF,QXCH,QCENT         ; r2-r1         t3 = d
-        DB      LA2,LB2,QADD,QMUL       ; r2^2-r1^2
-        DB      LT3,QDIV,LT3,QSUB       ; -2c
-        DB      QHALF,QMUL              ; -c
-        DB      LA2,QABS,LB2,QABS,QMAX  ; -c m          the greater one's radius
-        DB      LT3,QOVR,QSUB,QABS,QADD ; -c m+|d-m|
+        DB      LA2,LB2,QADD,QNEG,QMUL  ; r1^2-r2^2
+        DB      LT3,QDIV,LT3,QADD       ; 2c
+        DB      QHALF,QMUL,ST2          ; -             t2 = c
+        DB      LA2,QABS,LB2,QABS,QMAX  ; m             the greater one's radius
+        DB      LT3,QOVR,QSUB,QABS,QADD ; m+|d-m|
         DB      LA2,QABS,QSUB           ;
-        DB      LB2,QABS,QSUB           ; -c gap        = |d-m| less the other radius
-        DB      LB2,LA2,QSIG,SB2        ; -c gap        the crossing's sign
+        DB      LB2,QABS,QSUB           ; gap           = |d-m| less the other radius
+        DB      LB2,LA2,QSIG,SB2        ; gap           the crossing's sign
         DB      QJMP
         DB      GSXC1-$
 
@@ -236,9 +233,9 @@ GPNT:   DB      LB1,SA2,LB0,SA1,QRET    ; -
 
 ; S,P and P,S: how far P lies to the right of S; P*P (b2 is 0)
 GSPDIS: DB      QXCH                    ; -
-GPSDIS: DB      QDOT,LB2,QSUB,QTOA+QRET ; -
+GPSDIS: DB      QDOT,LB2,QSUB,SA0,QRET ; -
 ; P,P: distance
-GDIST:  DB      QDIF,QHYP,QTOA+QRET     ; -
+GDIST:  DB      QDIF,QHYP,SA0,QRET     ; -
 ; S,S: angle from the first direction to the second, with d = cosine, s = sine:
 ; 2*atg(s/(d+-1)), + for d from 0 up, is it or 180 off
 GANGLE: DB      QCRS,QDOT               ; s d
@@ -246,7 +243,7 @@ GANGLE: DB      QCRS,QDOT               ; s d
         DB      QDIV,QATG,QDBL          ; angle
         DB      Q90,Q90,QDOT,QSIG,QSUB  ; angle 90-+90
         DB      QCRS,QSIG               ; angle 0 or +-180
-        DB      QADD,QTOA+QRET          ; -
+        DB      QADD,SA0,QRET          ; -
 
 ; P/P: a circle through a point; P:D, C:D
 GTHRU:  DB      QDIF,QHYP,QJMP          ; r
@@ -258,7 +255,7 @@ GCIR1:  DB      QDUP,SA2,QABS           ; |r|
 
 ; P#P: perpendicular bisector, the first point on its left
 GBISEC: DB      QDIF                    ; dx dy
-        DB      QM1,QALNG,QXCH          ; dx dy         b = a+b
+        DB      Q1,QALNG,QXCH           ; dx dy         b = a+b
         DB      QUNIT                   ; -
         DB      QDOT,QHALF,QMUL,SA2     ; -
         DB      QRET
@@ -307,16 +304,16 @@ XFAR:   MOV     A,M             ; most are: exponent 78H is 2 um and more
         JM      XFAR1
         DB      CALC,QSS,QMU,QSQ,QSUB+QRET ; -1um^2
 XFAR1:  DB      CALC,QDRP,QABS+QRET     ; |x|
-; QALNG: a0 a1 moved by -k times b0 b1, k from the stack.
-XALNG:  DB      LA0,QOVR,LB0,QMUL  ; k a0 k*b0
-        DB      QSUB,SA0                ; k
-        DB      LA1,QSWP,LB1,QMUL       ; a1 k*b1
-        DB      QSUB,SA1,QRET           ; -
+; QALNG: a0 a1 moved by k times b0 b1, k from the stack.
+XALNG:  DB      QDUP,LB0,QMUL,LA0       ; k k*b0 a0
+        DB      QADD,SA0                ; k
+        DB      LB1,QMUL,LA1            ; k*b1 a1
+        DB      QADD,SA1,QRET           ; -
 ; QROTV: a0 a1 turned by b0 degrees; then b0 b1 = the old b1 b2.  QTURN: by the angle whose sine
 ; and cosine are b0 and b1
 XROTV:  DB      LB1,LB2            ; x y
         DB      LB0,QSIN,LB0,QCOS,QSB   ; x y           b = sine, cosine:
-XTURN:  DB      QDOT,QCRS,SA0,SA1       ; x y           cross is x', dot is y'
+XTURN:  DB      QCRS,QDOT,QSA           ; x y           cross is x', dot is y'
 ; (fall into XSB)
 ; QSB: b0 b1 = a vector
 XSB:    DB      SB1,SB0,QRET            ; -

@@ -1,8 +1,9 @@
 ; lexer.asm - a line: typed, made tokens of, listed
 ; Offers: GETLIN LEX LISTLN PRNUM PRNUMC BLANK
 ; Uses:   [more] [ports] [punch] decimal io monitor start value
-; Room:   459 bytes
+; Room:   460 bytes
 ;
+;! (WAIT2 & 7FFH) == WAITMN -- ENDLIN waits so many turns as were counted from WAIT2 on, and WAITMN
 ;! (LINBUF/100H & 1) == 0 and (TOKS/100H & 1) == 1 -- GETL6 knows by B's lowest bit that the line has lost a character
 ;
 ; The tokens are in equ.asm, the words and theirs in words.asm.  Words come before names; a character that begins
@@ -11,7 +12,8 @@
 ; its distance from the line's start; what is longer than the page is refused after LEX, the
 ; stack having room for what the longest line can make.
 
-WAIT2   EQU     7500            ; turns of INCH1 in two seconds (200 to 300 us each)
+WAITMN  EQU     200             ; turns that ENDLIN waits at the least
+WAIT2   EQU     4800H+WAITMN    ; from here to 8000H: two for each turn of INCH1 in two seconds (200 to 300 us each)
 
 ; GETLIN - reads a line into LINBUF, 00 behind it, and makes tokens of it; from then on
 ;          nothing is printed (OUTSEL = 0).  A control character that is no editing key
@@ -30,11 +32,12 @@ INCH1:  CALL    LISTEN          ; else (INPUT's answers too) from the teletype
         ANA     M
         DCX     H
         MOV     A,M             ; the key
+        INX     D               ; (for ENDLIN, whose turns are shorter)
+        INX     D
         JZ      INCH2
-        DCX     D
         MOV     A,D
-        ORA     E
-        JZ      GETL5           ; the reader has stopped
+        ORA     A
+        JM      GETL5           ; the reader has stopped
         CALL    BDREAD
         CPI     CEOF            ; a tape's; of the teletype's keys it is none
         JZ      GETL5

@@ -13,6 +13,7 @@
 ;! OPTAB/100H == (OPEND-1)/100H -- CALC makes the low byte alone of a place in the table
 ;! OPEND-OPTAB == 2*(QDIF+1) -- every number has its routine
 ;! QTOK+QRET == 0FFH -- the codes behind the constants are all used
+;! QJN+QRET == CALC -- a jump does not stand in front of QRET: the restart is no byte-code, the debugger knows it by that
 ;! (OPTAB & 0FFH) > 0 -- QRET leaves A not 0
 
 QEND    EQU 00H         ; the program goes on in machine code
@@ -37,25 +38,25 @@ QNA     EQU 12H         ; ->      a = N
 QJC     EQU 13H         ; ->      jump when a is a circle
 QONEL   EQU 14H         ; ->      ERR 06 when the point b is not on the element a
 QFAR    EQU 15H         ; x y -> negative when x*x+y*y is less than 1 um squared
-OPPOP   EQU 16H         ; (from here on: one is popped)
-QADD    EQU 16H         ; x y -> x+y
-QSUB    EQU 17H         ; x y -> x-y
-QMUL    EQU 18H         ; x y -> x*y
-QDIV    EQU 19H         ; x y -> x/y
+QFITS   EQU 16H         ; x -> x   ERR 10 when it has more than eight digits
+OPPOP   EQU 17H         ; (from here on: one is popped)
+QADD    EQU 17H         ; x y -> x+y
+QSUB    EQU 18H         ; x y -> x-y
+QMUL    EQU 19H         ; x y -> x*y
 QJN     EQU 1AH         ; x ->
-QJZ     EQU 1BH         ; x ->
-QDRP    EQU 1CH         ; x ->
-QSIG    EQU 1DH         ; x y -> x, or -x when y is negative
-QE6N    EQU 1EH         ; x ->    ERR 06 when negative
-OPBYTE  EQU 1FH         ; (from here on: byte-code)
-QSA     EQU 1FH         ; x y ->  a0 a1 = x y
-QSB     EQU 20H         ; x y ->  b0 b1 = x y
-QTOA    EQU 21H         ; x ->    a0 = x
+QDIV    EQU 1BH         ; x y -> x/y
+QJZ     EQU 1CH         ; x ->
+QDRP    EQU 1DH         ; x ->
+QSIG    EQU 1EH         ; x y -> x, or -x when y is negative
+QE6N    EQU 1FH         ; x ->    ERR 06 when negative
+OPBYTE  EQU 20H         ; (from here on: byte-code)
+QSA     EQU 20H         ; x y ->  a0 a1 = x y
+QSB     EQU 21H         ; x y ->  b0 b1 = x y
 QVEC    EQU 22H         ; ->      a0 a1
 QSS     EQU 23H         ; x y -> x*x+y*y
 QHYP    EQU 24H         ; x y -> square root of x*x+y*y
 QWAY    EQU 25H         ; x2 x1 y2 y1 -> w*w  b0 b1 = w: x2-x1 y2-y1
-QALNG   EQU 26H         ; k ->    a0 a1 less k times b0 b1
+QALNG   EQU 26H         ; k ->    a0 a1 and k times b0 b1
 QROTV   EQU 27H         ; ->      a0 a1 turned by b0 degrees; b0 b1 = b1 b2
 QUNIT   EQU 28H         ; x y ->  a0 a1 = unit vector, t3 = length; ERR 06 when nearly 0
 QE6D    EQU 29H         ; x y ->  ERR 06 when more than 1 um apart
@@ -73,7 +74,7 @@ QNORM   EQU 34H         ; ->      a0 a1 = right normal of a at the point b
 QNORMS  EQU 35H         ; ->      a0 a1, b0 b1 = right normals of C and N at K; negative: they run the same way
 QSENS   EQU 36H         ; R ->    negative when a is a circle that R would turn inside out
 QXING   EQU 37H         ; ->      a0 a1 = crossing of C and N as offset
-QCHDA   EQU 38H         ; x y -> dy dx  from a0 a1 to x y, times t0
+QCHDA   EQU 38H         ; x y -> dx dy  from a0 a1 to x y, times t0
 QTRAV   EQU 39H         ; x1 y1 x2 y2 -> s  travel on C: its sine times the radii; a, b = both places from the centre
 QPTOK   EQU 3AH         ; ->      K = b0 b1 = P
 QSCL    EQU 3BH         ; x -> x in the scale of the tape
@@ -86,9 +87,9 @@ QRET    EQU 0D5H        ; ends the byte-code and returns from the routine, A not
 OPTAB:  DW      ODRP            ; (QRET alone: nothing, then back)
         DW      OJMP,ODUP,OOVR,OSWP,OSQ,ODBL,FNEG,FFLR
         DW      FSQR,FSIN,FCOS,FTG,FATG,FABS,FINT
-        DW      XXCH,XCA,XNA,XJC,XONEL,XFAR
-        DW      FADD,FSUB,FMUL,FDIV,OJN,OJZ,ODRP,XSIG,XE6N
-        DW      XSA,XSB,XTOA,XVEC,XSS,XHYP,XWAY
+        DW      XXCH,XCA,XNA,XJC,XONEL,XFAR,XFITS
+        DW      FADD,FSUB,FMUL,OJN,FDIV,OJZ,ODRP,XSIG,XE6N
+        DW      XSA,XSB,XVEC,XSS,XHYP,XWAY
         DW      XALNG,XROTV,XUNIT,XE6D,XTOK
         DW      XMAX,XTURN,XCHRD,XBIAR,XMIRR,XLEG,XCENT
         DW      XRND,XVK,XNORM,XNORMS,XSENS,XXING,XCHDA,XTRAV

@@ -109,7 +109,7 @@ OPFN:   PUSH    PSW
         SUI     TSQR-QSQRT      ; the number of its operation
         LXI     B,OPFN1
         JMP     CALOP
-OPFN1:  DB      QTOA+QRET       ; -
+OPFN1:  DB      SA0,QRET       ; -
 
 ; OPK - K1 K2 K3: canonical number A (0...2) of the value
 ; In:  A, a0 a1 a2, VKIND   Out: as EVAL; ERR 04   Clobbers all
@@ -228,11 +228,10 @@ FIND2:  MVI     B,0
         DAD     B
         JMP     FIND1
 FIND3:  CALL    KINDD
-        MOV     A,E             ; none in RAM: O, X and Y are constants
-        ORA     A
+        INR     E               ; none in RAM: O, X and Y are constants
+        DCR     E
         STC
         RNZ
-        MOV     A,D
         LXI     H,CONTAB
         CPI     TNAME+52        ; Y
         RZ

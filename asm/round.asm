@@ -1,17 +1,25 @@
 ; round.asm - where the wire goes, in whole micrometres (tape-3b.md, section "Rounding")
-; Offers: XRND XVK XPTOK XTOK
+; Offers: XRND XFITS XVK XPTOK XTOK
 ; Uses:   calc consts float start
-; Room:   37 bytes
+; Room:   44 bytes
 
 ; QRND: mm to whole um: halves away from zero, 2 nm below a half counts as a half
 XRND:   DB      Q1000,QMUL         ; um
         DB      QDUP,QABS,Q502,QADD     ; um |um|+0.502
-        DB      QFLR,Q8DIG,QOVR,QSUB    ; um |whole| room
-        DB      QJN
-        DB      XRND1-$
+        DB      QFLR,QFITS              ; um |whole|
         DB      QSWP,QSIG+QRET          ; whole
-XRND1:  DB      QEND            ; um |whole|
+
+; QFITS: demands that a number, not negative and whole, has no more than eight digits: ERR 10
+XFITS:  MOV     A,M
+        CPI     9BH             ; below 2^26 it has
+        RC
+        DB      CALC,Q8DIG,QOVR,QSUB ; x room
+        DB      QJN             ; x
+        DB      XFITS1-$
+        DB      QRET
+XFITS1: DB      QEND            ; x
         DB      ERROR,ETAPE
+
 ; QVK: V = K in whole um; A = K, since the wire goes there
 XVK:    DB      LKX,QDUP,SAX,QRND,SVX   ; -
         DB      LKY,QDUP,SAY,QRND,SVY,QRET ; -

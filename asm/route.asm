@@ -60,9 +60,9 @@ WRAP:   LDA     FITSM           ; (between two arcs of one curve corners stay: t
         RNC
         DB      CALC,LDX,LDY,LAX,LAY,QSEEN,QDOT ; c
         DB      LPX,LPY,LKX,LKY,QSEEN,QDOT,QADD,QE6N ; -
-        DB      LDX,LDY,LPX,LPY,QTRAV ; s
-        DB      LC2,QABS,QMU,QMUL,QADD ; s      none when 1 um backwards
-        DB      LT3,QSIG,QNEG,QJN ; -           both in one half
+        DB      LPX,LPY,LDX,LDY,QTRAV ; -s
+        DB      LC2,QABS,QMU,QMUL,QSUB ; -s     none when 1 um backwards
+        DB      LT3,QSIG,QJN    ; -             both in one half
         DB      PASSP1-$
         DB      LDX,LDY,LKX,LKY,QSEEN,QDOT ; c
         DB      LAX,LAY,LPX,LPY,QSEEN,QDOT ; c c
@@ -112,9 +112,9 @@ XNORMS: DB      QNA,QNORM,QVEC ; x y
         DB      QCA,QNORM,QSB   ; -
         DB      QCRS,QABS,QMU,QSUB+QRET ; |sine|-0.001
 
-; QCHDA: x y -> dy dx: from a0 a1 to x y, times t0
+; QCHDA: x y -> dx dy: from a0 a1 to x y, times t0
 XCHDA:  DB      LA1,QSUB,LT0,QMUL,QSWP ; dy x
-        DB      LA0,QSUB,LT0,QMUL+QRET ; dy dx
+        DB      LA0,QSUB,LT0,QMUL,QSWP+QRET ; dx dy
 
 ; QXING: a0 a1 = the crossing of C offset by O1 and N offset by O2, as RTURN says; ERR 06
 XXING:  DB      QNA        ; -

@@ -1,7 +1,7 @@
 ; tape.asm - moves in whole micrometres, as 3B blocks (tape-3b.md)
 ; Offers: RUNCEL RUNLEN REPOS STOP PUNDS ENTER HOME MOVE PUTBLK ARCZ
 ; Uses:   [more] [punch] calc consts float geom io lexer round start
-; Room:   285 bytes
+; Room:   276 bytes
 ;
 ; The wire stands at W, the move goes to V; everything is made from these rounded
 ; values; ARC (arc_3b.asm, arc_nodrift.asm) does the arcs.
@@ -73,11 +73,7 @@ MOVE1:  DB      QVK             ; -
 
 ; PUTBLK - lists and punches a block; J = 0 is none
 ; In:  BX BY BJ, TGAX TZLET TZNUM, V   Out: W = V; ERR 10 when too long   Clobbers all
-PUTBLK: DB      CALC,Q8DIG      ; 99999999
-        DB      LBX,LBY,QMAX,LBJ,QMAX ; 99999999 max
-        DB      QSUB,QJN        ; -
-        DB      PUTB4-$
-        DB      LBJ,QJZ         ; -
+PUTBLK: DB      CALC,LBJ,QFITS,QJZ ; -          (BX and BY of a line are no longer; ARCZ has seen to those of an arc)
         DB      REPOS2-$        ; none
         DB      LVX,SWX,LVY,SWY,QEND ; -
         LXI     H,BLKNO
@@ -122,8 +118,6 @@ PUTB1:  MVI     A,CLTB
         DB      PUTC
 PUTB2:  CALL    CRLF            ; (PUNDS ends here too)
         JMP     PUNOFF
-PUTB4:  DB      QEND
-        DB      ERROR,ETAPE
 
 ; QUAD - quadrant of the vector a, each with its first axis (counter-clockwise)
 ; Out: C = its digit   Clobbers A, HL
@@ -146,7 +140,8 @@ QUAD2:  SUB     C
 ; ARCZ - what an arc's block says besides J, for ARC
 ; In:  a, b = start and end as seen from the centre, mirrored when it runs clockwise; C2
 ; Out: BX BY, TGAX TZLET TZNUM, t0; a, b as SETZG   Clobbers all
-ARCZ:   DB      CALC,LA0,QABS,SBX,LA1,QABS,SBY ; -
+ARCZ:   DB      CALC,LA0,QABS,QFITS,SBX ; -
+        DB      LA1,QABS,QFITS,SBY ; -
         DB      LB1,QABS,LB0,QABS,QSUB,ST0,QEND ; -
         CALL    QUAD
         LDA     MC2+1           ; sign

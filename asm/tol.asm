@@ -1,7 +1,7 @@
 ; tol.asm - TOL: few arcs for many nodes, spans of a curve are held back and tried as one (curves.md)
 ; Offers: STOL HOLD FLUSH
 ; Uses:   calc consts corner fit float geom parser route start
-; Room:   222 bytes
+; Room:   216 bytes
 ;
 ; With TOL the span that ends in node 1 is held back: KEPT is the node where it begins, HELD
 ; has the places of the nodes behind that one, node 1's the last.  When node 2 comes and the
@@ -49,14 +49,14 @@ FLUSH:  XRA     A
 ; ROTATE - KEPT goes behind node 2; node 1 goes where it was, and node 2 to node 1
 ; Clobbers all
 ROTATE: MVI     C,2*NODSIZ
-SWAP1:  LXI     D,KEPT
-        LXI     H,MNODE1
-        JMP     EXCHC           ; (calc: exchanges C bytes, the first one first)
+        DB      SKIP2           ; skips the MVI
 
 ; SWAP - exchanges KEPT and node 1
 ; Clobbers all
 SWAP:   MVI     C,NODSIZ
-        JMP     SWAP1
+        LXI     D,KEPT
+        LXI     H,MNODE1
+        JMP     EXCHC           ; (calc: exchanges C bytes, the first one first)
 
 ; TRY - may the span from node 1 to node 2 be held back?
 ; In:  HELD   Out: Z: yes, all nodes in HELD lie near it   Clobbers all
@@ -87,10 +87,15 @@ TRY2:   LXI     H,MT0
 TRY3:   CALL    ARCW
         DB      CALC,QCRS,QSWP,QDIV ; k             half the curvature
         DB      LT0,LT4,LT1,LT5,QWAY ; k q*q    b = q: to n from the arc's node
-        DB      LTO,QSQ,QSUB,QSWP,QDUP,ST0,QMUL ; k(q*q-d*d)  t0 = k
-        DB      QCRS,QSUB,QDUP,ST1 ; g          t1 = g = k(q*q-d*d)-t*q
-        DB      QABS,LTO,QSWP,QSUB,QJN ; -      d-|g|
-        DB      TRY6-$
+        DB      LTO,QSQ,QSUB,QOVR,ST0,QMUL ; k(q*q-d*d)  t0 = k
+        DB      QCRS,QSUB,ST1   ; -             t1 = g = k(q*q-d*d)-t*q
+        DB      LT1,QABS,LTO,QSUB,QJN ; -       |g|-d
+        DB      TRY5-$
+; |g| > d: more than d off; but nothing lies too far inside an arc whose radius is below d
+        DB      LT0,LTO,QSQ,QMUL,QDBL ; 2kd*d
+        DB      LT1,QNEG,QSIG,LT1,QABS,QSUB ; +-2kd*d-|g|  + inside
+        DB      QJN             ; -
+        DB      TRY4-$
 TRY5:   DB      QDOT,LO1,QSIG,QJN ; -           past the node, the wrong way
         DB      TRY4-$
         DB      QEND
@@ -99,13 +104,6 @@ TRY5:   DB      QDOT,LO1,QSIG,QJN ; -           past the node, the wrong way
         CMP     E
         JNZ     TRY2
         RET
-; |g| > d: more than d off; but nothing lies too far inside an arc whose radius is below d
-TRY6:   DB      LT0,LTO,QSQ,QMUL,QDBL ; 2kd*d
-        DB      LT1,QNEG,QSIG,LT1,QABS,QSUB ; +-2kd*d-|g|  + inside
-        DB      QJN             ; -
-        DB      TRY4-$
-        DB      QJMP
-        DB      TRY5-$
 TRY4:   DB      QEND
         POP     D
         INR     A
