@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from itertools import pairwise
 
+from measured import Measured, judge
 from oneblock import run_block
 from test_rom import EXAMPLES, STEP_LIMIT, Driver
 
@@ -56,7 +57,7 @@ class Costs:
         )
 
 
-def main() -> None:
+def main() -> list[Measured]:
     """Both ways over the examples."""
     by_tape, by_run = Costs(), Costs()
     for path in EXAMPLES:
@@ -74,7 +75,11 @@ def main() -> None:
         by_run.add(board, tape)
     print(f"skg-drive, DRIVE: {by_tape}")
     print(f"skg-drive, RUN:   {by_run}")
+    return [
+        Measured(f"a step of skg-drive, {way}", costs.cycles / costs.steps, STEP_LIMIT)
+        for way, costs in (("DRIVE", by_tape), ("RUN", by_run))
+    ]
 
 
 if __name__ == "__main__":
-    main()
+    raise SystemExit(judge(main()))

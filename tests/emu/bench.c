@@ -1,10 +1,12 @@
 /* bench: the rates of emu/i8080.c, of emu/i8080_small.c and of a plain switch-and-callback core, on one workload in one run
  *
  *      bench image.com [seconds]
+ *      bench image.com CORE CYCLES
  *
  * Prints millions of 8080 instructions a second for all, and how often the first has the plain core's. All must print the
  * same text and count the same instructions and cycles, or the exit code is 1. The first and the last are timed several times
  * by turns, the small one twice, and the best time counts: other work of the host can only make a run slower.
+ * With a core (ours, small, plain) that one alone runs, for so many cycles, so that a tool may count what the host does.
  */
 #include "../../emu/com.h"
 #include "../../emu/i8080_small.h"
@@ -36,6 +38,9 @@ static void best(result *r, double seconds)
     }
 }
 
+/* The cycles after which a core that is to be counted is stopped. */
+static uint64_t limit = UINT64_MAX / 2;
+
 static bool run_ours(const uint8_t *program, size_t length, result *r)
 {
     i8080 *c = malloc(sizeof *c);
@@ -44,7 +49,7 @@ static bool run_ours(const uint8_t *program, size_t length, result *r)
         return false;
     }
     double start = now();
-    com_end end = com_run(c, program, length, UINT64_MAX / 2, out);
+    com_end end = com_run(c, program, length, limit, out);
     best(r, now() - start);
     r->cycles = c->cycles;
     r->instructions = c->instructions;
@@ -149,7 +154,7 @@ static bool run_plain(const uint8_t *program, size_t length, result *r)
         // clang-format on
     };
     double start = now();
-    while (!m->ended && !m->plain.halted) {
+    while (!m->ended && !m->plain.halted && m->plain.cycles < limit) {
         plain8080_step(&m->plain);
     }
     best(r, now() - start);
@@ -168,7 +173,7 @@ static bool run_small(const uint8_t *program, size_t length, result *r)
     m->small.pc = COM_START;
     m->small.sp = 0xc8fe;
     double start = now();
-    i8080_small_run(&m->small, UINT64_MAX / 2);
+    i8080_small_run(&m->small, limit);
     best(r, now() - start);
     r->cycles = m->small.cycles;
     r->instructions = m->small.instructions;
@@ -195,19 +200,44 @@ static void show(const char *name, const result *r)
            r->seconds);
 }
 
+/* One core alone: prints its instructions. */
+static int count(const char *core, const uint8_t *program, size_t length)
+{
+    static const struct {
+        const char *name;
+        bool (*run)(const uint8_t *program, size_t length, result *r);
+    } cores[] = { { "ours", run_ours }, { "small", run_small }, { "plain", run_plain } };
+    static result r;
+    for (size_t i = 0; i < sizeof cores / sizeof *cores; i++) {
+        if (!strcmp(core, cores[i].name)) {
+            cores[i].run(program, length, &r);
+            printf("%llu\n", (unsigned long long)r.instructions);
+            return 0;
+        }
+    }
+    fprintf(stderr, "bench: no core %s\n", core);
+    return 2;
+}
+
 int main(int argc, char **argv)
 {
     static result ours, small, plain;
     char error[256];
     size_t length;
     if (argc < 2) {
-        fputs("usage: bench image.com [seconds]\n", stderr);
+        fputs("usage: bench image.com [seconds | CORE CYCLES]\n", stderr);
         return 2;
     }
     uint8_t *program = image_read(argv[1], COM_SIZE, &length, error, sizeof error);
     if (!program) {
         fprintf(stderr, "bench: %s\n", error);
         return 2;
+    }
+    if (argc > 3) {
+        limit = strtoull(argv[3], NULL, 10);
+        int exit_code = count(argv[2], program, length);
+        free(program);
+        return exit_code;
     }
     double seconds = argc > 2 ? atof(argv[2]) : 6;
     double start = now();

@@ -11,6 +11,7 @@ from fractions import Fraction
 
 import numpy as np
 from floathelp import Floats, Printer, from_rows, nearest
+from measured import Measured, judge
 
 from skg.machine import Batch
 
@@ -71,13 +72,13 @@ def measure(board: Printer) -> dict[str, Batch]:
     }
 
 
-def main() -> None:
-    """The table."""
+def main() -> list[Measured]:
+    """The table; what has a limit."""
     board = Printer()
     calls = measure(board)
     print("float.asm, decimal.asm    bytes   mean cycles     max   limit    MBF")
     labels = sorted(PARTS, key=lambda label: (board.symbols[label], PARTS[label][0]))
-    total = 0
+    total, limited = 0, []
     for label, behind in zip(labels, labels[1:], strict=False):
         what, limit, known = PARTS[label]
         if not what:
@@ -88,9 +89,12 @@ def main() -> None:
         if label in calls:
             cycles = calls[label].cycles
             line += f" {cycles.mean():13,.0f} {cycles.max():7,} {limit:>7}    {known}"
+            if limit:
+                limited.append(Measured(f"{label}, mean", float(cycles.mean()), int(limit.replace(",", ""))))
         print(line.rstrip())
     print(f"{'all':24} {total:6}                           1,500 bytes")
+    return [*limited, Measured("bytes of float.asm and decimal.asm", total, 1500)]
 
 
 if __name__ == "__main__":
-    main()
+    raise SystemExit(judge(main()))
