@@ -30,7 +30,7 @@ import pytest
 
 #: Parts of the project that most tests do not read: they are in the key of a test whose files say their name.
 APART = ("web", "docs", "release", "pico", ".github", ".ci", "README.md", "README.zh.md", "HACKING.md", "CHANGELOG.md",
-         "CONTRIBUTING.md", "SECURITY.md")  # fmt: skip
+         "CONTRIBUTING.md")  # fmt: skip
 TOOLS, TESTS, OWN = "tools/skg/", "tests/", "tests/kept.py"
 #: What reads all of the tools: the command line, by its module or by its program; the folder by its name.
 COMMAND_LINE = re.compile(r"[\"'/]tools[\"'/]|skg\.cli|with_name\(\"skg\"\)|bin/skg\b|-m\", \"skg\"")

@@ -83,7 +83,8 @@ class Pages:
         self.pages = [file for file in files if file.suffix == ".md"]
 
     def find(self, name: str, citing: Path) -> Path | None:
-        """The page of that name: beside the citing file, from the root, or the only English one of that base name."""
+        """The page of that name: beside the citing file, from the root, or the only English one of that base name: of several the
+        specification's."""
         for folder in (citing.parent, Path()):
             place = Path(*_normal(folder / name))
             if place in self.pages:
@@ -91,7 +92,8 @@ class Pages:
         if "/" in name:
             return None
         same = [page for page in self.pages if page.name == name and page.parent.name != "zh"]
-        return same[0] if len(same) == 1 else None
+        named = [page for page in same if page.parent.name == "spec"] if len(same) > 1 else same
+        return named[0] if len(named) == 1 else None
 
     def citations(self, citing: Path) -> list[Citation]:
         """All citations in a file."""

@@ -14,7 +14,7 @@ TREE = {
     "asm/some.asm": "NOP",
     "web/page.ts": "",
     "docs/page.md": "",
-    "docs/cited.md": "",
+    "docs/curves.md": "",
     "tools/skg/__init__.py": "",
     "tools/skg/cli.py": "",
     "tools/skg/ref/__init__.py": "from skg.ref.parser import parse",
@@ -61,7 +61,7 @@ def keys(tree: Path) -> dict[str, str]:
         ("tools/skg/ref/skg.lark", "tape more cut"),  # beside them
         ("tools/skg/cutting/job.py", "more cut"),
         ("tools/skg/new.py", "cut"),
-        ("docs/cited.md", "pages"),
+        ("docs/curves.md", "pages"),
         ("web/page.ts", ""),
         ("tests/rom/romhelp.py", "tape pages more"),
         ("tests/tools/other.py", "tape more cut"),
