@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from facthelp import each_says, pattern, says
+from facthelp import says
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_tape import blocks
@@ -13,7 +13,8 @@ from toolhelp import CAD_TAPE, Run
 
 from skg import tape as tapes
 from skg.errors import UserError
-from skg.tape import Block, Stop
+from skg.messages.finding import Finding, Phrase
+from skg.tape import Block, Stop, Tape
 from skg.tape.styles import STYLES, read_any, to_style
 
 BLOCKS = [
@@ -29,12 +30,12 @@ SAME = {
     "published": (
         "B 9900B 0B 9900 GX L3 B 0B 70100B 70100 GY L2 B 55000B 0B 55000 GX L3 B 50100B 100B 100000 GY NR1"
         "B 54900B 0B 54900 GX L3",
-        "blanks, several blocks in a line, no DD at the end",
+        "style-blanks, style-several, style-no-end",
     ),
     "numbered": (
         "N 1: B 9900 B 0 B 9900 GX L3\nN 2: B 0 B 70100 B 70100 GY L2\nN 3: B 55000 B 0 B 55000 GX L3\n"
         "N 4: B 50100 B 100 B 100000 GY NR1\nN 5: B 54900 B 0 B 54900 GX L3\nN 6: DD\n",
-        "block numbers, blanks",
+        "style-numbers, style-blanks",
     ),
     "with header and places": (
         "****\nCAM -Version 2.0 , Name : part\nConner R= 0.00000 , Offset F= 0.10000 ,Length= 290.000 mm\n****\n"
@@ -44,34 +45,34 @@ SAME = {
         "N   3: B  55000 B      0 B  55000 GX   L3 ;   50.100 ,  60.100\n"
         "N   4: B  50100 B    100 B 100000 GY  NR1 ;  -50.100 ,  60.100\n"
         "N   5: B  54900 B      0 B  54900 GX   L3 ; -105.000 ,  60.100\nN   6: DD\n",
-        "comments, a header of 5 lines, block numbers, blanks",
+        "style-comments, style-header 5, style-numbers, style-blanks",
     ),
     "teletype's listing": (
         "0001 B9900B0B9900GXL3\n0002 B0B70100B70100GYL2\n0003 B55000B0B55000GXL3\n0004 B50100B100B100000GYNR1\n"
         "0005 B54900B0B54900GXL3\nDD\n",
-        "block numbers",
+        "style-numbers",
     ),
     "keyed in": (
         "b009900b000000b009900gxl3\nb0b070100b070100gyl2\nb055000b0b055000gxl3\nb050100b000100b100000gynr1\n"
         "b054900b0b054900gxl3\nE\n",
-        "leading zeros, small letters, E for the end",
+        "style-zeros, style-small, style-end E",
     ),
     "as little as there is": (
         "BBB9900GxL3\r\nBBB70100GyL2\r\nBBB55000GxL3\r\nB50100B100B100000GyNR1\r\nBBB54900GxL3\r\nFF\r\n",
-        "zeros left out, small letters, lines along an axis by J alone, FF for the end",
+        "style-no-zeros, style-small, style-j-alone, style-end FF",
     ),
     "by slope": (
         "B1B0B9900GXL3\r\nB0B1B70100GYL2\r\nB1B0B55000GXL3\r\nB50100B100B100000GYNR1\r\nB9B0B54900GXL3\r\nDD\r\n",
-        "lines by their slope, x and y a part of what J says",
+        "style-slope",
     ),
     "the axis of the quadrant before": (
         "B9900B0B9900GXL2\r\nB0B70100B70100GYL1\r\nB55000B0B55000GXL2\r\nB50100B100B100000GYNR1\r\nB54900B0B54900GXL3\r\nDD\r\n",
-        "the other quadrant on lines along an axis",
+        "style-line-quadrant",
     ),
     "commas and comments": (
         "# a part\nB9900,B0,B9900,GX,L3 (in)\nB0,B70100,B70100,GY,L2 // up\nB55000,B0,B55000,GX,L3\n"
         "B50100,B100,B100000,GY,NR1\nB54900,B0,B54900,GX,L3\nDD\n\x1a",
-        "comments, blanks",
+        "style-comments, style-blanks",
     ),
 }
 
@@ -79,16 +80,29 @@ SAME = {
 SAME |= {
     "a header in Chinese": (
         "零件程序 图号：冲模01\n偏移量=0.1\n" + "\n".join(BLOCKS) + "\nDD\n",
-        "a header of 2 lines",
+        "style-header 2",
     ),
-    "counted in Chinese": ("".join(f"{k}、{block}\n" for k, block in enumerate(BLOCKS, 1)) + "DD\n", "block numbers"),
-    "counted with a bracket": ("".join(f"{k}) {b}\n" for k, b in enumerate(BLOCKS, 1)) + "DD\n", "block numbers"),
-    "an old Macintosh's": ("".join(f"{block}\r" for block in BLOCKS) + "DD\r", "lines that end with CR alone"),
+    "counted in Chinese": ("".join(f"{k}、{block}\n" for k, block in enumerate(BLOCKS, 1)) + "DD\n", "style-numbers"),
+    "counted with a bracket": ("".join(f"{k}) {b}\n" for k, b in enumerate(BLOCKS, 1)) + "DD\n", "style-numbers"),
+    "an old Macintosh's": ("".join(f"{block}\r" for block in BLOCKS) + "DD\r", "style-bare-cr"),
     "full-width": (
         "".join("".join(chr(ord(c) + 0xFEE0) for c in block) + "\u3000\n" for block in BLOCKS) + "ＤＤ\n",
-        "full-width characters",
+        "style-full-width",
     ),
 }
+
+
+def told(tape: Tape) -> str:
+    """The notes on a tape's style: the codes, with their values."""
+    (note,) = tape.notes
+    return ", ".join(" ".join([each.code, *(str(value) for _, value in each.values)]) for each in note["notes"])
+
+
+def facts_of(finding: Finding) -> list[object]:
+    """The code of a finding, the numbers of its sources (line, column, block), and its values."""
+    sources = [value for source in finding.source if isinstance(source, Phrase) for _, value in source.values]
+    values = [value.code if isinstance(value, Phrase) else value for _, value in finding.values]
+    return [finding.code, *sources, *values]
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "gb18030"])
@@ -97,7 +111,7 @@ def test_the_same_tape(text: str, noted: str, encoding: str) -> None:
     tape = tapes.parse(text.encode(encoding))
     assert [str(block) for block in tape.blocks] == BLOCKS
     assert tape.stops == ()
-    assert each_says(tape.notes, ("style", noted))
+    assert told(tape) == noted
 
 
 def test_own_style_is_not_noted() -> None:
@@ -123,13 +137,14 @@ def test_a_stop_in_a_blocks_line_is_noted() -> None:
     """4B has a D there that is no stop."""
     tape = tapes.parse(b"B9900B0B9900GXL3D\r\nB9900B0B9900GXL1\r\nDD\r\n")
     assert [stop.after for stop in tape.stops] == [1]
-    assert each_says(tape.notes, ("style", "stop", "block", "line"))
+    assert told(tape) == "style-stop-beside"
 
 
 @pytest.mark.parametrize("lost", ["N7 B5B0B5GX", "B 5 B0 B5 GX L9", "hm\nB5"])
 def test_half_a_block_behind_the_end_is_not_lost(lost: str) -> None:
-    with pytest.raises(UserError, match=pattern("line 2, column 1", "DD")):
+    with pytest.raises(UserError) as error:
         tapes.parse(f"N1 B5B0B5GXL1 DD\n{lost}\n".encode())
+    assert facts_of(error.value.finding)[:4] == ["nothing-after", 2, 1, "DD"]
 
 
 @pytest.mark.parametrize("word", ["END", "end", "M02", "M2", "N3 M30", "M 02", "FF", "E", "MJ"])
@@ -140,21 +155,24 @@ def test_words_that_end_a_tape(word: str, between: str) -> None:
     tape = tapes.parse(f"{text}\n%\n".encode())
     name = word.upper().removeprefix("N3 ").replace(" ", "")
     assert len(tape.blocks) == 2 and tape.stops == ()
-    assert says(tape.notes[0], name, "1 more line") and not says(tape.notes[0], "DD")
-    with pytest.raises(UserError, match=pattern(name, "block")):
+    assert {f"style-end {name}", "style-trailer 1"} <= set(told(tape).split(", "))
+    with pytest.raises(UserError) as error:
         tapes.parse(f"{text} B5B0B5GXL3 DD".encode())
+    code, *_, end, found = facts_of(error.value.finding)
+    assert (code, end, found) == ("nothing-after", name, "a-block")
 
 
 @pytest.mark.parametrize("word", ["M22", "M021", "ENDE", "M3", "HALT"])
 def test_other_words_are_refused(word: str) -> None:
-    with pytest.raises(UserError, match=f"found '{word}'"):
+    with pytest.raises(UserError) as error:
         tapes.parse(f"B5B0B5GXL1\n{word}\nB0B5B5GYL2\nDD\n".encode())
+    assert facts_of(error.value.finding) == ["no-block-no-word", 2, 1, repr(word)]
 
 
 def test_blank_tape_and_rubouts_between_blocks() -> None:
     tape = tapes.parse(b"\0\0B5B0B5GXL1\r\n\0\0\x7f\x7fB0B5B5GYL2\r\n\0DD\r\n\0\x7f")
     assert len(tape.blocks) == 2
-    assert each_says(tape.notes, ("style", "blank tape", "rubout"))
+    assert told(tape) == "style-blank-tape"
 
 
 def test_diagonals_and_arcs_on_an_axis() -> None:
@@ -165,36 +183,35 @@ def test_diagonals_and_arcs_on_an_axis() -> None:
 
 
 @pytest.mark.parametrize(("text", "facts"), [
-    ("B 5B0B5GXL1\nB0B5B5GYL2\nB5B0B5GXL\nDD", ["line 3, column 1", "D", "DD", "'B5B0B5GXL'"]),
-    ("B 5B0B5GXL1\nhello\nDD", ["line 2, column 1", "D", "DD", "'hello'"]),
-    ("B1B1GYL1\r\nB5B0B5GXL1\r\nDD\r\n", ["line 1, column 1", "block", "B", "J"]),
-    ("B5B0B5GXL1\r\nB0B5B5GYL2\r\n", ["line 3, column 1", "DD", "end"]),
-    ("B5B0B5GXL1\r\nDD\r\nB0B5B5GYL2\r\nDD\r\n", ["line 3, column 1", "DD", "block"]),
-    ("B5B0B5GXL1\r\nDD\r\nB1", ["line 3, column 1", "DD", "'B1'"]),
-    ("B 7B5B6GXL1 DD", ["line 1, column 1", "block 1", "J = 6", "x", "7"]),
-    ("B 7B9B9GXL1 DD", ["line 1, column 1", "block 1", "GX", "axis", "expected GY"]),
-    ("B 5000B0B5001GXL1 DD", ["line 1, column 1", "block 1", "J = 5001", "x", "5000"]),
-    ("B 123456789B0B123456789GXL1 DD", ["line 1, column 1", "x", "9 digits", "8"]),
-    ("B 0B0B5GYL1 DD", ["line 1, column 1", "block 1", "x", "0"]),
-    ("hello\nworld\n", ["line 1, column 1", "none", "tape"]),
-    ("  0\nSECTION\n  2\nENTITIES\n", ["DXF drawing", "3B"]),
-    ("10 FROM O\n20 CUT (1,0)\n", ["SKG program", "3B"]),
-    ("B0B0B2900GXL1\nB2900B0B2900B2900GYDNR1\nDD",
-     ["line 2, column 1", "4B", "3B"]),
-    ("B5B0B5GXL1\nD1\nB0B5B5GYL2\nDD", ["line 2, column 2", "D", "DD", "'1'"]),
-    ("B5B0B5GXL1\n结束了\n", ["line 2, column 1", "D", "DD", "'结束了'"]),
-    ("B5B0B5FXL1\nDD", ["line 1, column 1", "B x B y B J G Z"]),
-    ("B3000B0B3000GXDL1\nDD", ["line 1, column 13", "4B", "3B"]),
+    ("B 5B0B5GXL1\nB0B5B5GYL2\nB5B0B5GXL\nDD", ["no-block-no-word", 3, 1, "'B5B0B5GXL'"]),
+    ("B 5B0B5GXL1\nhello\nDD", ["no-block-no-word", 2, 1, "'hello'"]),
+    ("B1B1GYL1\r\nB5B0B5GXL1\r\nDD\r\n", ["no-block", 1, 1]),
+    ("B5B0B5GXL1\r\nB0B5B5GYL2\r\n", ["expected-found", 3, 1, "DD", "end-of-tape"]),
+    ("B5B0B5GXL1\r\nDD\r\nB0B5B5GYL2\r\nDD\r\n", ["nothing-after", 3, 1, "DD", "a-block"]),
+    ("B5B0B5GXL1\r\nDD\r\nB1", ["nothing-after", 3, 1, "DD", "'B1'"]),
+    ("B 7B5B6GXL1 DD", ["line-j-less", 1, 1, 1, 6, 7]),
+    ("B 7B9B9GXL1 DD", ["line-axis", 1, 1, 1, "X", "Y"]),
+    ("B 5000B0B5001GXL1 DD", ["line-j-more", 1, 1, 1, 5001, 5000]),
+    ("B 123456789B0B123456789GXL1 DD", ["too-many-digits", 1, 1, "x", 9, 8]),
+    ("B 0B0B5GYL1 DD", ["block-nowhere", 1, 1, 1]),
+    ("hello\nworld\n", ["no-block-at-all", 1, 1]),
+    ("  0\nSECTION\n  2\nENTITIES\n", ["other-kind", "file-dxf", "file-tape"]),
+    ("10 FROM O\n20 CUT (1,0)\n", ["other-kind", "file-program", "file-tape"]),
+    ("B0B0B2900GXL1\nB2900B0B2900B2900GYDNR1\nDD", ["tape-4b", 2, 1]),
+    ("B5B0B5GXL1\nD1\nB0B5B5GYL2\nDD", ["no-block-no-word", 2, 2, "'1'"]),
+    ("B5B0B5GXL1\n结束了\n", ["no-block-no-word", 2, 1, "'结束了'"]),
+    ("B5B0B5FXL1\nDD", ["no-block", 1, 1]),
+    ("B3000B0B3000GXDL1\nDD", ["tape-4b", 1, 13]),
 ])  # fmt: skip
-def test_refused(text: str, facts: list[str]) -> None:
+def test_refused(text: str, facts: list[object]) -> None:
     with pytest.raises(UserError) as error:
         tapes.parse(text.encode(), "x.3b")
-    assert each_says(str(error.value), ("x.3b: ", *facts))
+    assert error.value.finding.source[0] == "x.3b" and facts_of(error.value.finding) == facts
 
 
 def test_a_line_that_is_missing() -> None:
     tape = tapes.parse(b"N1 B5B0B5GXL1\nN2 B0B5B5GYL2\nN4 B5B0B5GXL3\nDD\n")
-    assert says(tape.notes[0], "block number", "line")
+    assert told(tape).split(", ")[-1] == "style-uneven"
 
 
 @given(st.lists(st.one_of(blocks(), st.builds(Stop, st.just(0))), min_size=1).filter(
@@ -258,4 +275,4 @@ def test_written_in_a_style(run: Run, tmp_path: Path) -> None:
 @pytest.mark.parametrize(("text", "noted"), [("{}{}DD", True), ("{}\n{}DD", False), ("{}\r\n{}\r\nDD\r\n", False)])
 def test_blocks_without_line_ends_are_noted(text: str, noted: bool) -> None:
     tape = tapes.parse(text.format("B9900B0B9900GXL3", "B0B70100B70100GYL2").encode(), "part.3b")
-    assert (len(tape.blocks), any(says(note, "block", "line") for note in tape.notes)) == (2, noted)
+    assert (len(tape.blocks), bool(tape.notes) and "style-several" in told(tape)) == (2, noted)
