@@ -10,6 +10,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 
+from skg.messages.finding import Finding, Phrase
+
 #: The beginning of a line that warns and does not refuse.
 CARE = "take care"
 
@@ -63,3 +65,10 @@ def counts_say(counts: Mapping[str, int], expected: Mapping[object, int]) -> boo
         if len(saying) != 1 or rest.pop(saying[0]) != count:
             return False
     return not rest
+
+
+def facts_of(finding: Finding) -> list[object]:
+    """The code of a finding, the numbers of its places (line, column, block), and its values."""
+    places = [value for source in finding.source if isinstance(source, Phrase) for _, value in source.values]
+    values = [value.code if isinstance(value, Phrase) else value for _, value in finding.values]
+    return [finding.code, *places, *(round(value, 3) if isinstance(value, float) else value for value in values)]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from facthelp import says
+from facthelp import facts_of, says
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_tape import blocks
@@ -13,7 +13,6 @@ from toolhelp import CAD_TAPE, Run
 
 from skg import tape as tapes
 from skg.errors import UserError
-from skg.messages.finding import Finding, Phrase
 from skg.tape import Block, Stop, Tape
 from skg.tape.styles import STYLES, read_any, to_style
 
@@ -96,13 +95,6 @@ def told(tape: Tape) -> str:
     """The notes on a tape's style: the codes, with their values."""
     (note,) = tape.notes
     return ", ".join(" ".join([each.code, *(str(value) for _, value in each.values)]) for each in note["notes"])
-
-
-def facts_of(finding: Finding) -> list[object]:
-    """The code of a finding, the numbers of its sources (line, column, block), and its values."""
-    sources = [value for source in finding.source if isinstance(source, Phrase) for _, value in source.values]
-    values = [value.code if isinstance(value, Phrase) else value for _, value in finding.values]
-    return [finding.code, *sources, *values]
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "gb18030"])
