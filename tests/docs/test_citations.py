@@ -83,8 +83,8 @@ class Pages:
         self.pages = [file for file in files if file.suffix == ".md"]
 
     def find(self, name: str, citing: Path) -> Path | None:
-        """The page of that name: beside the citing file, from the root, or the only English one of that base name: of several the
-        specification's."""
+        """The page of that name: beside the citing file, from the root, or the only English one of that base name;
+        of several the specification's."""
         for folder in (citing.parent, Path()):
             place = Path(*_normal(folder / name))
             if place in self.pages:
