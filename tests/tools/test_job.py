@@ -410,6 +410,14 @@ def test_numbers_stay_when_some_are_left_out(run: Run, tmp_path: Path) -> None:
     assert all(f">{number}<" in sheet for number in numbers)
 
 
+def test_layers_and_what_is_odd_in_them(run: Run, tmp_path: Path) -> None:
+    """The lines are on standard output, the findings of the reading on standard error."""
+    page = drawing()
+    page.modelspace().add_lwpolyline([(0, 0), (9, 0), (9, 9)], close=True, dxfattribs={"const_width": 0.5})
+    done = run("cut", saved(page, tmp_path), "--list-layers")
+    assert done.stdout == "0: 1 LWPOLYLINE\n" and says(done.stderr, "part.dxf", "width")
+
+
 def test_layers_of_a_job(run: Run, tmp_path: Path) -> None:
     plate(tmp_path)
     (tmp_path / "part.job.toml").write_bytes(encoded(Job("part.dxf")))

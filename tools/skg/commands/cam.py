@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import click
 
 from skg.commands.options import Degrees, Millimetres
@@ -26,7 +28,7 @@ MOST = 50_000.0
     "--roller", default=0.0, show_default=False, type=Millimetres(0, MOST), help="Diameter of the follower's roller."
 )
 @shape_options
-def command(output: str, offset: float | None, tab: float, tape: str | None, **dimensions: float | str) -> None:
+def command(output: str, offset: float | None, tab: float, tape: str | None, **dimensions: Any) -> None:  # noqa: ANN401 (numbers and the law)
     """Write the SKG program that cuts a disc cam about the origin.
 
     Rise and return are nodes for FIT with their tangents. The program is run, and its tape compared with the exact

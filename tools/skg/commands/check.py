@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from skg.geometry.plane import XY
     from skg.tape.layout import PlacedRoute
 
-Found = "TapeFault | gcode_reader.GcodeFinding | RefusedProgram | Spoilt"
+    Found = TapeFault | gcode_reader.GcodeFinding | RefusedProgram | Spoilt
 
 #: So many findings of a tape are listed; one wrong in its style alone has some in every line.
 MOST = 20
@@ -57,16 +57,17 @@ def command(
         text = iso_text(name, dialect=dialect)
         data = tape_bytes(name) if text is None else text.encode()
         if text is not None:
-            program, findings = gcode_reader.scan(text, dialect=dialect)
+            program, wrong = gcode_reader.scan(text, dialect=dialect)
             if not as_json:
-                _list(name, findings, Phrase("count-lines", count=len(text.splitlines())), list_all)
+                _list(name, wrong, Phrase("count-lines", count=len(text.splitlines())), list_all)
             for note in program.notes:
                 remark(note.within(name))
+            all_findings += [(name, finding) for finding in wrong]
         else:
-            tape, findings = scan(data, name, positions)
+            tape, faults = scan(data, name, positions)
             if not as_json:
-                _list_3b(name, data, tape, findings, list_all)
-        all_findings += [(name, finding) for finding in findings]
+                _list_3b(name, data, tape, faults, list_all)
+            all_findings += [(name, fault) for fault in faults]
         if is_program(name):
             misfits, count = _misfits(name, data)
             if (count or misfits) and not as_json:
@@ -93,14 +94,15 @@ def _misfits(name: str, tape: bytes) -> tuple[list[Spoilt | RefusedProgram], int
     program, runs = as_run(text)
     mills = is_milling(text)
     wires, result = routes_of(program, runs, mills)
-    refused = [RefusedProgram(*result.error)] if result.error else []
+    refused: list[Spoilt | RefusedProgram] = [RefusedProgram(*result.error)] if result.error else []
     if not any(segment.offset for wire in wires for segment in wire):
         return refused, 0
     drawn = drawn_routes(name, program, runs, mills)
     # (nearly always they are equal)
     tapes = () if tape == result.tape else (tape, result.tape)
     cut = [_placed(tape, start_of(result), mills) for tape in tapes]
-    misfits, count = look(wires, drawn, "cutter" if mills else "wire", *cut, is_whole=not refused)
+    found, wanted = cut or ((), ())
+    misfits, count = look(wires, drawn, "cutter" if mills else "wire", found, wanted, is_whole=not refused)
     # (lines of a program that was translated are nobody's)
     return [*refused, *(replace(misfit, line=None) if is_rival(name) else misfit for misfit in misfits)], count
 

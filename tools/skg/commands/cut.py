@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from os.path import realpath
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 from click.core import ParameterSource
@@ -287,7 +287,7 @@ def _cut(
     sheet: str | None,
     save_job: str | None,
     dialect: GcodeDialect | None,
-    **options: object,
+    **options: Any,  # noqa: ANN401
 ) -> tuple[CutDrawing, list[Finding]] | None:
     """Cut the drawing and write the files: the result, and what there is to say of the tape's name; None: its layers
     were listed."""
@@ -340,7 +340,7 @@ def is_job_file(name: str) -> bool:
     return name.lower().endswith(".toml")
 
 
-def _asked(file: str, starts: tuple[XY, ...], **options: object) -> Job:
+def _asked(file: str, starts: tuple[XY, ...], **options: Any) -> Job:  # noqa: ANN401 (as click has them)
     """The job that the options ask for: they are named as the fields of its parts."""
     job = Job("standard input" if file == "-" else Path(file).name, starts=starts)
     machine = replace(job.machine, **_said(options, job.machine))
@@ -351,7 +351,7 @@ def _asked(file: str, starts: tuple[XY, ...], **options: object) -> Job:
     return replace(job, read=read, machine=machine, default=Partial(**wanted))
 
 
-def _said(options: dict[str, object], part: Wishes | MachineSetup | Wanted) -> dict[str, object]:
+def _said(options: dict[str, Any], part: Wishes | MachineSetup | Wanted) -> dict[str, Any]:
     """The options that are given, or have a default, for a part of the job."""
     return {name: options[name] for name in vars(part) if options.get(name) is not None}
 
@@ -359,7 +359,7 @@ def _said(options: dict[str, object], part: Wishes | MachineSetup | Wanted) -> d
 def _loaded(file: str, context: click.Context) -> tuple[Job, str]:
     """The job of a file, and where its drawing is; an option beside it that says what is wanted is a `UserError`."""
     for parameter in context.command.params:
-        is_given = context.get_parameter_source(parameter.name) is ParameterSource.COMMANDLINE
+        is_given = context.get_parameter_source(parameter.name or "") is ParameterSource.COMMANDLINE
         if is_given and parameter.name not in _BESIDE_A_JOB:
             raise UserError(Finding("option-in-job", option=parameter.opts[0]).within(file))
     job = job_files.decoded(read_bytes(file), file)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import click
 
 from skg.commands.options import Degrees, FiniteRange, Millimetres
@@ -43,7 +45,12 @@ from skg.messages.finding import Finding
 )
 @shape_options
 def command(
-    output: str, offset: float | None, tab: float, tape: str | None, keyway: tuple[float, float], **dimensions: float
+    output: str,
+    offset: float | None,
+    tab: float,
+    tape: str | None,
+    keyway: tuple[float, float],
+    **dimensions: Any,  # noqa: ANN401 (teeth are whole)
 ) -> None:
     """Write the SKG program that cuts an involute spur gear.
 

@@ -97,9 +97,10 @@ def spares_what_it_reads(function: Callable) -> Callable:
 
 def _refuse_onto(context: click.Context) -> None:
     """Raise a `UserError` when a command would write a file that it reads, or one file twice, or one without a name."""
-    read, written = [], []
+    read: list[str] = []
+    written: list[str] = []
     for parameter in context.command.params:
-        if isinstance(parameter.type, click.Path) and (value := context.params[parameter.name]) is not None:
+        if isinstance(parameter.type, click.Path) and (value := context.params[parameter.name or ""]) is not None:
             if value == "":
                 raise UserError(Finding("empty-file-name").within(parameter.human_readable_name))
             is_read = isinstance(parameter, click.Argument) or parameter.name in ("answers", "file")

@@ -25,6 +25,8 @@ from skg.messages.finding import Finding, Phrase
 from skg.terminal import remark
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from skg.pictures.plot import Sheet
     from skg.tape.dialect import GcodeDialect
 
@@ -101,7 +103,7 @@ def command(
 
 def _laid(
     name: str, start: XY | None, positions: str, skg80: str | None, dialect: GcodeDialect | None, show_offset: bool
-) -> tuple[Sheet, list[XY]]:
+) -> tuple[Sheet, Sequence[XY]]:
     """The routes of a file and its stops, µm. (No more is kept of a tape: it may be long.)"""
     from skg.pictures.plot import Sheet
     from skg.sources.load import contour_of, iso_program, lay_out, load

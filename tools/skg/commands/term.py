@@ -48,7 +48,7 @@ BOARD_BAUD = {"rc2014": 115200, "rc2014-sio": 115200, "minimax8085": 19200, "rcb
 )
 @click.option("--record", metavar="FILE", type=click.Path(), help="Write the punched tape to this file.")
 @click.option("--punch-port", metavar="PORT", help="Port of the punch, if not PORT itself.")
-@click.option("--board", type=click.Choice(BOARD_BAUD), help="Kind of board: sets its speed.")
+@click.option("--board", type=click.Choice(list(BOARD_BAUD)), help="Kind of board: sets its speed.")
 @click.option("--baud", metavar="N", type=click.IntRange(50), help=f"Speed of both ports. Default: {DEFAULT_BAUD}.")
 @click.option(
     "--pace",
@@ -110,7 +110,7 @@ def command(
 
     if unnumbered and not (file and run):
         raise UserError(Finding("unnumbered-alone"))
-    baud = baud or BOARD_BAUD.get(board, DEFAULT_BAUD)
+    baud = baud or BOARD_BAUD.get(board or "", DEFAULT_BAUD)
     if punch_port and os.path.realpath(punch_port) == os.path.realpath(port):
         raise UserError(Finding("punch-on-port").within(punch_port))
     is_attended = sys.stdin is not None and sys.stdin.isatty() and not batch

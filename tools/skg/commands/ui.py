@@ -12,7 +12,7 @@ from html import escape
 from pathlib import Path
 from tempfile import gettempdir, mkstemp
 from threading import Event, Thread
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import click
 
@@ -22,6 +22,8 @@ from skg.messages.render import text
 from skg.terminal import tell
 
 if TYPE_CHECKING:
+    from io import BufferedReader
+
     from skg.ui.server import Server
 
 
@@ -77,7 +79,8 @@ def command(file: Path | None, port: int, no_browser: bool, until_eof: bool) -> 
 
 def _end_with_input(server: Server) -> None:
     """End the server when nobody can write to standard input any more."""
-    while sys.stdin is not None and sys.stdin.buffer.read1(1 << 12):
+    # (a buffer of the interpreter's own has read1)
+    while sys.stdin is not None and cast("BufferedReader", sys.stdin.buffer).read1(1 << 12):
         pass
     server.end()
 

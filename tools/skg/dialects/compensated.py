@@ -29,7 +29,9 @@ def compensated(routes: Sequence[PlannedContour], dialect: GcodeDialect, feed: f
     """
     routes = [_as_drawn(route) for route in routes]
     offsets = list(dict.fromkeys(_beside(run) for route in routes for run in route.runs() if run.offset))
-    words, writer, path = dialect.compensation, GcodeWriter(dialect), []
+    words, writer = dialect.compensation, GcodeWriter(dialect)
+    assert words  # (its caller asks for them)
+    path: list[Piece] = []
     numbers = {offset: str(number) for number, offset in enumerate(offsets, 1)}
 
     def filled(template: str, offset: int) -> str:
@@ -63,6 +65,7 @@ class _Cut:
     def run(self, run: Way, hole: Spot, filled: Callable[[str, int], str]) -> None:
         """From a start hole along the contour, and to a start hole."""
         writer, words = self.writer, self.writer.dialect.compensation
+        assert words
         writer.all_of(writer.dialect.begin)
         way_in, way_out = _ways(run)
         if run.into and run.into.home:
@@ -87,6 +90,7 @@ class _Cut:
 
     def straight(self, place: XY) -> None:
         """A line to a place, mm."""
+        assert self.writer.spot  # (begun at a hole)
         x, y = self.writer.spot
         self.path.append(Piece((x / 1000, y / 1000), place))
         self.writer.line(_spot(place), self.feed)

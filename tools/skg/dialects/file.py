@@ -104,7 +104,8 @@ def decoded(data: bytes, name: str) -> GcodeDialect:
         top = tomllib.loads(data.decode("utf-8-sig"))
     except (UnicodeDecodeError, tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
         raise UserError(Finding("not-toml", detail=str(error)).within(name)) from None
-    fields = checked_values({key: value for key, value in top.items() if key not in _TABLES}, _TOP | _TABLES, name)
+    known: dict[str, Any] = {**_TOP, **_TABLES}
+    fields = checked_values({key: value for key, value in top.items() if key not in _TABLES}, known, name)
     tables = {
         key: checked_values(expect_table(top.get(key, {}), f"{name}: [{key}]"), checks, f"{name}: [{key}]")
         for key, checks in _TABLES.items()

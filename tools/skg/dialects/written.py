@@ -32,5 +32,6 @@ def machine_program(
 
 
 def _in_mm(piece: Piece) -> Piece:
-    start, end, centre = (spot and (spot[0] / 1000, spot[1] / 1000) for spot in (piece.start, piece.end, piece.centre))
-    return Piece(start, end, centre, piece.sweep)
+    (x, y), (u, v) = piece.start, piece.end
+    centre = piece.centre and (piece.centre[0] / 1000, piece.centre[1] / 1000)
+    return Piece((x / 1000, y / 1000), (u / 1000, v / 1000), centre, piece.sweep)

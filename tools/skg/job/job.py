@@ -103,7 +103,7 @@ class Job:
         """Wishes for a contour on some layers."""
         wanted = self.default.over(Wanted(offset=self.machine.distance))
         on = {layer.lower() for layer in layers}
-        for name, partial in reversed(self.layers.items()):
+        for name, partial in reversed(list(self.layers.items())):
             if name.lower() in on:
                 wanted = partial.over(wanted)
         if not chosen:

@@ -152,6 +152,7 @@ class Known:
                 best = clear, candidate
             if clear >= _LEAST:
                 break
+        assert best  # (a contour has edges)
         return best[1]
 
     def choose_all(self) -> list[Chosen]:

@@ -6,10 +6,11 @@ from collections.abc import Callable, Collection
 from itertools import pairwise
 from math import inf
 from pathlib import Path
+from typing import Any
 
 from skg.messages.finding import Phrase
 
-Check = Callable[[object], object]
+Check = Callable[[object], Any]
 
 #: No wire with its spark gap is wider than twice this, mm.
 MOST_OFFSET = 5.0
@@ -92,8 +93,14 @@ def number(low: float = -FARTHEST, high: float = FARTHEST, is_open: bool = False
     """Make the check of a number in a range; `is_open`: without its lower end."""
 
     def check(value: object) -> float:
-        is_number = isinstance(value, int | float) and not isinstance(value, bool)
-        if not is_number or not low <= value <= high or is_open and value == low:
+        # (bool is an int)
+        if (
+            not isinstance(value, int | float)
+            or isinstance(value, bool)
+            or not low <= value <= high
+            or is_open
+            and value == low
+        ):
             code = ("value-above" if is_open else "value-from") + "-to" * (high < inf)
             raise Wrong(Phrase(code, low=low, high=high))
         return float(value)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 #: The side of a contour that the wire runs on.
 SIDES = ("auto", "inside", "outside", "left", "right", "on")
@@ -73,7 +74,7 @@ class Partial:
     entry: tuple[float, float] | None = None
     order: int | None = None
 
-    def said(self) -> dict[str, object]:
+    def said(self) -> dict[str, Any]:
         """The fields that are set, by name."""
         return {name: value for name, value in vars(self).items() if value is not None}
 

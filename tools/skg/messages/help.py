@@ -45,5 +45,5 @@ def _translated(parameter: click.Parameter, words: NullTranslations) -> click.Pa
     if not isinstance(parameter, click.Option) or not parameter.help:
         return parameter
     parameter = copy(parameter)
-    parameter.help = words.gettext(parameter.help)
+    parameter.help = words.gettext(parameter.help or "")
     return parameter

@@ -188,7 +188,7 @@ class Account:
             if end.other is None:
                 report.append(Finding("open-end-alone", place=end.place))
             else:
-                about = {"gap": end.gap, "other": end.other, "advice": end.advice}
+                about: dict[str, Any] = {"gap": end.gap, "other": end.other, "advice": end.advice}
                 report.append(Finding("open-end", place=end.place, **about))
         report += _more(self.open_ends, "more-open-ends")
         for entity in self.not_understood[:_PLACES]:
@@ -201,7 +201,7 @@ class Account:
         return [*report, *_mended(self.mends), *self.findings]
 
 
-def by_layer(code: str, entities: Iterable[Entity], **values: object) -> Iterator[Finding]:
+def by_layer(code: str, entities: Iterable[Entity], **values: Any) -> Iterator[Finding]:  # noqa: ANN401
     """Report odd entities and how they are cut, those of each layer together."""
     layers: dict[str, list[Entity]] = defaultdict(list)
     for entity in entities:

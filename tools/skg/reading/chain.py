@@ -129,11 +129,11 @@ def moved(edge: Edge, start: XY, end: XY) -> Edge:
             sweep = edge.sweep + turn(edge.sweep, turn(*angles))
             return replace(edge, start=start, end=end, centre=centre, sweep=sweep)
     pieces = max(3, int(abs(edge.sweep) / 0.5) + 1)
-    nodes = [CurveNode(edge.at(k / pieces), edge.direction(k / pieces)) for k in range(pieces + 1)]
-    nodes[0], nodes[-1] = CurveNode(start, nodes[0].angle), CurveNode(end, nodes[-1].angle)
+    curve = [CurveNode(edge.at(k / pieces), edge.direction(k / pieces)) for k in range(pieces + 1)]
+    curve[0], curve[-1] = CurveNode(start, curve[0].angle), CurveNode(end, curve[-1].angle)
     fine = max(pieces, chords_of(edge.radius, edge.sweep, MEASURED))
-    samples = [start, *edge.parted(fine)[1:-1], end]
-    return Edge(start, end, nodes=tuple(nodes), samples=np.array(samples), entity=edge.entity)
+    places = [start, *edge.parted(fine)[1:-1], end]
+    return Edge(start, end, nodes=tuple(curve), samples=np.array(places), entity=edge.entity)
 
 
 def _twin(edge: Edge, others: list[Edge], tolerance: float) -> Edge | None:
@@ -377,7 +377,7 @@ class _Graph:
         for index in range(len(steps) if is_closed else len(steps) - 1):
             following = (index + 1) % len(steps)
             end, start = steps[index].end, steps[following].start
-            place = _middle(end, start)
+            place: XY | None = _middle(end, start)
             if distance(end, start) > MEET:
                 place = _crossing(steps[index], steps[following])
                 if place is None:

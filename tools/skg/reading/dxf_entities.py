@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import cache
 from math import cos, pi, radians, sin, sqrt
@@ -221,10 +221,10 @@ class _Collector:
             hidden = hidden or self.unwanted(layer)
         outer = self.placing.matrix, self.dashes_around
         try:
-            matrices = [] if reason else self.matrices(record, block)
+            matrices = [] if reason or block is None else self.matrices(record, block)
         except UNREADABLE as error:
             reason = _unread(error)
-        if reason:
+        if reason or block is None:
             account = self.account(record, layer)
             account.left = hidden or self.unwanted(layer) or reason
             account.is_odd = account.left == reason
@@ -254,7 +254,7 @@ class _Collector:
         if lack := record.lack():
             raise NotFlat(Phrase("reason-other", detail=lack))
         if record.kind in fast_dxf.POLYLINES and (line := fast_dxf.polyline(record)):
-            points = [(x, y, line.height) for x, y, _ in line.vertices]
+            points: list[Sequence[float]] = [(x, y, line.height) for x, y, _ in line.vertices]
             return placing.polyline(points, [bulge for _, _, bulge in line.vertices], line.is_closed)
         if record.kind in fast_dxf.KINDS and (given := fast_dxf.numbers(record)):
             if record.kind == "LINE":

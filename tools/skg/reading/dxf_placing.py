@@ -65,20 +65,22 @@ class Placing:
 
     def line(self, start: XYZ, end: XYZ) -> Edge:
         """A line."""
-        return Edge(*self.points([start, end]), entity=self.entity)
+        first, last = self.points([start, end])
+        return Edge(first, last, entity=self.entity)
 
     def arc(self, centre: XYZ, radius: float, first: float, sweep: float, ocs: OCS | None = None) -> list[Edge]:
         """An arc or circle, which may stand in a coordinate system of its own."""
         radius = abs(radius)
-        frame = [centre, (radius, 0.0, 0.0), (0.0, radius, 0.0)]
-        return self.conic(*(frame if ocs is None else ocs.points_to_wcs(frame)), first, sweep)
+        frame: list[XYZ] = [centre, (radius, 0.0, 0.0), (0.0, radius, 0.0)]
+        middle, u, v = frame if ocs is None else list(ocs.points_to_wcs(frame))
+        return self.conic(middle, u, v, first, sweep)
 
     def conic(self, centre: XYZ, u: XYZ, v: XYZ, first: float, sweep: float) -> list[Edge]:
         """centre + u cos t + v sin t from `first` on."""
         x, y, z = centre
         ends = [(x + along, y + up, z + high) for along, up, high in (u, v)]
-        middle, *ends = self.points([centre, *ends])
-        return [conic(middle, *(minus(end, middle) for end in ends), first, sweep, self.tolerance, self.entity)]
+        middle, p, q = self.points([centre, *ends])
+        return [conic(middle, minus(p, middle), minus(q, middle), first, sweep, self.tolerance, self.entity)]
 
     def polyline(
         self, points: list[XYZ], bulges: list[float], is_closed: bool, ocs: OCS | None = None

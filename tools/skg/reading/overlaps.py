@@ -43,7 +43,8 @@ def without_overlaps(chains: Chains, tolerance: float, near: float, styles: Styl
     ends = [(number, is_last) for number in kept for is_last in (False, True) if _ends(runs[number])[is_last] in free]
     towards = [_towards(kept[number], is_last) for number, is_last in ends]
     on = _on([edge.end for edge in towards], towards, near) if towards else set()
-    neighbours, used = _neighbours({(first, second) for first, second in on if (second, first) in on}), set()
+    neighbours = _neighbours({(first, second) for first, second in on if (second, first) in on})
+    used: set[int] = set()
     for first, edge in enumerate(towards):
         for second in neighbours.get(first, ()):
             other = towards[second]

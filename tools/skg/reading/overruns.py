@@ -48,7 +48,8 @@ def without_overruns(chains: Chains, tolerance: float, styles: Styles = ()) -> t
         for ((number, is_last), corner), (edge, piece) in zip(pair, shorter, strict=True):
             edges = opened[number].edges
             opened[number] = replace(opened[number], edges=(*edges[:-1], edge) if is_last else (edge, *edges[1:]))
-            cuts += [Overrun(piece, corner)] * (piece is not None)
+            if piece is not None:
+                cuts.append(Overrun(piece, corner))
     if not cuts:
         return chains, []
     again, closes = chained_again(chains, list(opened.values()), rest, tolerance, styles)

@@ -15,6 +15,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import floor
+from typing import Any
 
 from skg.errors import UserError
 from skg.geometry.contour import Contour, Edge
@@ -152,11 +153,11 @@ def _near_origin(reading: Reading) -> Reading:
     nominal, unasked = ([edge.shifted(by) for edge in group] for group in (reading.nominal, reading.unasked))
     written = [replace(text, place=shifted(text.place, by)) for text in reading.written]
     report.mends = [replace(mend, place=shifted(mend.place, by)) for mend in report.mends]
-    seen = {"nominal": nominal, "unasked": unasked, "written": written}
+    seen: dict[str, Any] = {"nominal": nominal, "unasked": unasked, "written": written}
     return replace(reading, contours=contours, starts=starts, others=others, opened=opened, **seen)
 
 
-def layer_lines(data: bytes, name: str, wishes: Wishes) -> tuple[list[str], list[str]]:
+def layer_lines(data: bytes, name: str, wishes: Wishes) -> tuple[list[str], list[Finding]]:
     """List the entities of each layer of a drawing file, a line each; and what was guessed or mended to read it."""
     content, report = _content(data, name, wishes)
     kinds: dict[str, Counter[str]] = defaultdict(Counter)
@@ -164,7 +165,7 @@ def layer_lines(data: bytes, name: str, wishes: Wishes) -> tuple[list[str], list
         kinds[entity.layer][entity.kind] += 1
     return [
         text(Phrase("layer-list", layer=layer, kinds=listed(kinds[layer]))) for layer in sorted(kinds)
-    ], report.notes
+    ], report.findings
 
 
 def _is_svg(data: bytes, name: str) -> bool:
@@ -247,7 +248,7 @@ def _check_size(report: Account) -> None:
     in."""
     before = len(report.findings)
     (width, height), largest = report.size, max(report.size)
-    size = {"width": width, "height": height}
+    size: dict[str, Any] = {"width": width, "height": height}
     is_told = report.units_from != NOT_TOLD
     if not is_told and not USUAL[0] <= largest <= USUAL[1]:
         other = _in_other_units(report, units=GUESSED)
@@ -279,7 +280,7 @@ def _likely(report: Account) -> Iterator[Finding]:
     if report.page and not _paper(report.page, dots):
         for inch in _DOTS:
             if name := _paper(report.page, inch):
-                size = tuple(side * dots / inch for side in read)
+                size = read[0] * dots / inch, read[1] * dots / inch
                 yield _sized("page-in-dots", read, size, paper=name, dots=inch, were=round(dots))
                 return
     if _is_whole(read):
@@ -289,14 +290,14 @@ def _likely(report: Account) -> Iterator[Finding]:
     else:
         others = {"mm": {"inch": 25.4}, "inch": {"mm": 1 / 25.4}}.get(report.units, {})
     for name, times in others.items():
-        size = tuple(side * times for side in read)
+        size = read[0] * times, read[1] * times
         if _is_whole(size) and max(size) >= USUAL[0]:
             code = "size-in-dots" if name.isdigit() else "size-in-other-units"
             yield _sized(code, read, size, units=name)
             return
 
 
-def _sized(code: str, read: XY, other: XY, **values: object) -> Finding:
+def _sized(code: str, read: XY, other: XY, **values: Any) -> Finding:  # noqa: ANN401
     """A finding with the size as it was read, and as it may be, mm."""
     return Finding(code, width=read[0], height=read[1], wide=other[0], high=other[1], **values)
 

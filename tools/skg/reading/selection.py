@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from copy import copy
 from dataclasses import replace
 from math import inf
+from typing import Any
 
 import shapely
 
@@ -262,8 +263,8 @@ class Fates:
             layer.read += 1
             gone = self.gone.get(number) or Counter()
             if cut[number] + gone.total() != self.parts[number] or not (self.parts[number] or entity.left):
-                about = {"kind": entity.kind, "layer": entity.layer, "place": entity.place}
-                known = {"parts": self.parts[number], "counted": cut[number] + gone.total()}
+                about: dict[str, Any] = {"kind": entity.kind, "layer": entity.layer, "place": entity.place}
+                known: dict[str, Any] = {"parts": self.parts[number], "counted": cut[number] + gone.total()}
                 raise UserError(Finding("miscounted", **about, **known))
             if not entity.left and all(why in _WITH_OTHERS for why in gone):
                 report.whole[number] = DOUBLE in gone
@@ -271,12 +272,13 @@ class Fates:
             if not lost and not entity.left:
                 layer.cut += 1
                 continue
-            left = replace(entity, left=entity.left or _all_of(lost))
+            reason = entity.left or _all_of(lost)
+            left = replace(entity, left=reason)
             if cut[number]:
                 layer.part += 1
             else:
                 layer.left += 1
-            layer.why[left.left][left.kind] += 1
+            layer.why[reason][left.kind] += 1
             if JUNCTION in gone:
                 rest.append(left)
             elif left.is_odd:

@@ -12,10 +12,11 @@ from contextlib import contextmanager
 from functools import cache
 from itertools import pairwise
 from math import pi, radians
+from typing import Any
 
 import ezdxf
 from ezdxf.document import Drawing
-from ezdxf.entities import DXFGraphic, factory
+from ezdxf.entities import factory
 from ezdxf.lldxf.const import DXFError
 from ezdxf.lldxf.extendedtags import ExtendedTags
 from ezdxf.lldxf.tagger import binary_tags_loader, tag_compiler
@@ -82,14 +83,14 @@ def encoding(page: str) -> str:
     return toencoding(page)
 
 
-def entity(record: Record) -> DXFGraphic:
+def entity(record: Record) -> Any:  # noqa: ANN401 (ezdxf has a class for each kind)
     """Return ezdxf's entity of a record, without a document; `ValueError` and whatever else ezdxf raises."""
     with _told():
         return _entity(record)
 
 
-def _entity(record: Record) -> DXFGraphic:
-    graphic = factory.load(ExtendedTags(Tags(_tags(record.groups))))
+def _entity(record: Record) -> Any:  # noqa: ANN401
+    graphic: Any = factory.load(ExtendedTags(Tags(_tags(record.groups))))
     for part in record.parts:
         if part.kind != "SEQEND":
             graphic.link_entity(_entity(part))
@@ -104,13 +105,13 @@ def placed(record: Record, base: tuple[float, float, float], outer: Matrix44 | N
         return [_matrix(single, base, outer) for single in _singles(_entity(record))]
 
 
-def _singles(insert: DXFGraphic) -> Iterable[DXFGraphic]:
+def _singles(insert: Any) -> Iterable[Any]:  # noqa: ANN401
     """The references that one with rows and columns stands for."""
     check_entities(insert.mcount)
     return insert.multi_insert() if insert.mcount > 1 else (insert,)
 
 
-def _matrix(insert: DXFGraphic, base: tuple[float, float, float], outer: Matrix44 | None) -> Matrix44:
+def _matrix(insert: Any, base: tuple[float, float, float], outer: Matrix44 | None) -> Matrix44:  # noqa: ANN401
     if Vec3(insert.dxf.extrusion).is_null:
         insert.dxf.extrusion = Vec3(0, 0, 1)
     matrix = Matrix44.translate(*(-ordinate for ordinate in base)) @ insert.matrix44()
@@ -126,28 +127,29 @@ def view(plane: str) -> Matrix44:
     return matrix
 
 
-def start(entity: DXFGraphic) -> Vec3:
+def start(entity: Any) -> Vec3:  # noqa: ANN401
     """The place of a start hole: a POINT, or a CIRCLE around it; raises as `entity` does."""
     with _told():
         return entity.dxf.location if entity.dxftype() == "POINT" else entity.ocs().to_wcs(entity.dxf.center)
 
 
-def is_through_places(entity: DXFGraphic) -> bool:
+def is_through_places(entity: Any) -> bool:  # noqa: ANN401
     """Tell whether it is a spline that tells the places alone that it runs through."""
     return entity.dxftype() in ("SPLINE", "HELIX") and not len(entity.control_points)
 
 
-def edges(entity: DXFGraphic, placing: Placing, styles: dict[str, Record]) -> Iterator[Edge]:
+def edges(entity: Any, placing: Placing, styles: dict[str, Record]) -> Iterator[Edge]:  # noqa: ANN401
     """One entity's edges, placed on the drawing; `styles`: of multilines. Raises as `entity` does, and `NotFlat`."""
     with _told():
         yield from _edges(entity, placing, styles)
 
 
-def _edges(entity: DXFGraphic, placing: Placing, styles: dict[str, Record]) -> Iterable[Edge]:
+def _edges(entity: Any, placing: Placing, styles: dict[str, Record]) -> Iterable[Edge]:  # noqa: ANN401
     dxf = entity.dxf
     match entity.dxftype():
         case "LINE":
-            return [Edge(*placing.points([dxf.start, dxf.end]))]
+            start, end = placing.points([dxf.start, dxf.end])
+            return [Edge(start, end)]
         case "CIRCLE":
             return placing.arc(dxf.center, dxf.radius, 0.0, 2 * pi, _ocs(entity))
         case "ARC":
@@ -179,7 +181,7 @@ def _edges(entity: DXFGraphic, placing: Placing, styles: dict[str, Record]) -> I
             raise NotFlat(Phrase("reason-not-understood"))
 
 
-def _spline(entity: DXFGraphic, placing: Placing) -> Iterator[Edge]:
+def _spline(entity: Any, placing: Placing) -> Iterator[Edge]:  # noqa: ANN401
     """A spline; one through places alone is ezdxf's."""
     if is_through_places(entity):
         places = [Vec3(place) for place in entity.fit_points]
@@ -191,7 +193,7 @@ def _spline(entity: DXFGraphic, placing: Placing) -> Iterator[Edge]:
     return spline_edges(flat, placing.tolerance)
 
 
-def _multiline(entity: DXFGraphic, placing: Placing, styles: dict[str, Record]) -> Iterator[Edge]:
+def _multiline(entity: Any, placing: Placing, styles: dict[str, Record]) -> Iterator[Edge]:  # noqa: ANN401
     """The lines beside each other, and the caps that the style gives them at the ends."""
     name = entity.dxf.style_name
     style = styles.get(name.upper())
@@ -214,7 +216,7 @@ def _document() -> Drawing:
     return ezdxf.new()
 
 
-def _ocs(entity: DXFGraphic) -> OCS | None:
+def _ocs(entity: Any) -> OCS | None:  # noqa: ANN401
     """The coordinate system that an entity stands in, if it has one of its own."""
     return None if Vec3(entity.dxf.extrusion).is_null else entity.ocs()
 

@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from io import BytesIO
+from typing import Any
 from xml.etree import ElementTree
 
 import svgelements
@@ -155,7 +156,7 @@ class SvgFile:
             self.px = PX
         width, height = (_page_side(self._side(side), self.px) for side in ("width", "height"))
         if any(side is not None and not 0 < side < _MOST_PAGE for side in (width, height)):
-            sides = {name: self._side(name) or "?" for name in ("width", "height")}
+            sides: dict[str, Any] = {name: self._side(name) or "?" for name in ("width", "height")}
             raise UserError(Finding("svg-page-size", **sides))
         # (a page that tells one side or none has that of its view box)
         if box and width is None:
@@ -374,9 +375,9 @@ def _transform(style: Style, view: View) -> svgelements.Matrix:
     if words[0] in ("top", "bottom") or words[1] in ("left", "right"):
         words.reverse()
     whole = [length_of(_SIDES.get(word, word), side, view.px) for word, side in zip(words, view.size, strict=True)]
-    if None in whole or style.box not in ("", "view-box"):
-        raise ValueError(f"its transform-origin, {style.origin}, {style.box}".strip(", "))
     x, y = whole
+    if x is None or y is None or style.box not in ("", "view-box"):
+        raise ValueError(f"its transform-origin, {style.origin}, {style.box}".strip(", "))
     translate = svgelements.Matrix.translate
     if not _TRANSFORMS.fullmatch(style.transform):
         raise ValueError(f"its transform, {style.transform}")
@@ -423,7 +424,9 @@ def _framed(inner: ElementTree.Element, outer: ElementTree.Element, view: View, 
     sides = []
     for side, whole in zip(("width", "height"), view.size, strict=True):
         # (attributes of a `use` go before the drawing's own; a style sheet before both)
-        length = length_of(view.style.geometry.get(side) or outer.get(side) or inner.get(side, ""), whole, view.px)
+        length = length_of(
+            view.style.geometry.get(side) or outer.get(side) or inner.get(side, "") or "", whole, view.px
+        )
         sides.append(whole if length is None else length)
     box = _view_box(inner)
     if box and not all(sides):

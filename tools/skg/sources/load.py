@@ -156,7 +156,7 @@ def drawn_routes(name: str, program: str, runs: bool, mills: bool) -> Routes:
 def _piece(segment: Segment) -> Piece:
     """A segment of the reference as a line or arc."""
     start, end = ((float(point.x), float(point.y)) for point in (segment.start, segment.end))
-    if not segment.is_arc:
+    if segment.centre is None or segment.radius is None or segment.sweep is None:
         return Piece(start, end)
     sweep = float(segment.sweep) * (1 if segment.radius > 0 else -1)
     return Piece(start, end, (float(segment.centre.x), float(segment.centre.y)), sweep)
@@ -214,12 +214,12 @@ def _run_emulator(name: str, text: str, skg80: str, mills: bool) -> bytes:
     """Run a program on an emulator of one's own."""
     if not Path(skg80).exists():
         raise UserError(Finding("no-such-file").within(skg80))
-    rom = ["--rom", rom_path(MILL_ROM)] if mills else []
+    rom: list[str | Path] = ["--rom", rom_path(MILL_ROM)] if mills else []
     try:
         with tempfile.TemporaryDirectory() as folder:
             part = Path(folder) / "part.skg"
             part.write_text(text)
-            words = [skg80, *rom, "--max-cycles", str(MOST_CYCLES), part]
+            words: list[str | Path] = [skg80, *rom, "--max-cycles", str(MOST_CYCLES), part]
             done = subprocess.run(words, capture_output=True, check=False)
     except PermissionError:
         raise UserError(Finding("not-runnable").within(skg80)) from None
