@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import os
 import re
 import shutil
 import subprocess
@@ -18,7 +19,7 @@ from skg.ref.interpreter import run
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "firmware.md"
 #: Indented lines behind an empty one: what is to be typed.
-BLOCK = re.compile(r"(?:^ {8}.*\n|^\n(?= {8}))+", re.M)
+BLOCK = re.compile(r"(?:^ {8}.*\n|^\n+(?= {8}))+", re.M)
 
 
 def blocks(heading: str, until: str) -> list[str]:
@@ -43,7 +44,9 @@ def source(name: str, text: str, room: int) -> str:
 
 @pytest.fixture
 def asm(tmp_path: Path) -> Path:
-    """A copy of asm/, with its assembler."""
+    """A copy of asm/, with its assembler; of a tree in which nobody follows the page."""
+    if re.search(r'"skg-(rot|mine)":', (ROOT / "asm" / "images.py").read_text()):
+        pytest.skip("asm/ has the page's own image")
     copy = tmp_path / "asm"
     shutil.copytree(ROOT / "asm", copy, ignore=shutil.ignore_patterns("node_modules", "__pycache__"))
     (copy / "node_modules").symlink_to(ROOT / "asm" / "node_modules")
@@ -65,7 +68,9 @@ def image(asm: Path, name: str) -> bytes:
 
 def test_a_statement(asm: Path) -> None:
     """ROT, an image of its own; the standard one stays as it is."""
-    word, statement, none, placed, row = blocks("## Adding a statement", "5. **The reference**")
+    word, statement, none, placed, hook, row, grammar, reference, test = blocks(
+        "## Adding a statement", "6. **For everybody**"
+    )
     images = asm / "images.py"
     scale = next(line for line in (asm / "words.txt").read_text().splitlines() if " SCALE " in line) + "\n"
     replaced(asm / "words.txt", scale, scale + word)
@@ -75,6 +80,7 @@ def test_a_statement(asm: Path) -> None:
     replaced(images, "*self.spans, ", "*self.spans, *self.turn, ")
     replaced(images, '"spans", "more")', '"spans", "turn", "more")')
     replaced(images, "IMAGES = {\n", f"IMAGES = {{\n    {row}")
+    replaced(asm / "rooms.py", "HOOKS = {\n", f"HOOKS = {{\n    {hook}")
     replaced(asm / "cut.asm", "        CALL    SCALED\n; ITEMT", "        CALL    PLACED\n; ITEMT")
     replaced(asm / "ends.asm", "CALL    SCALED", "CALL    PLACED")
     replaced(asm / "run.asm", "CALL    RUNINI", "CALL    RUNBEG")
@@ -83,6 +89,10 @@ def test_a_statement(asm: Path) -> None:
     (variants / "norot.asm").write_text(source("norot", none, 0))
     tool(asm, "rooms.py", "--headers")
     assert "; Offers: SROT PLACED RUNBEG\n" in (variants / "rot.asm").read_text()
+    tangled = (
+        "import build, rooms; print([rooms.tangled(rooms.every()[name]) for name in ('skg', 'skg-rot', 'skg-mill')])"
+    )
+    assert tool(asm, "-c", tangled) == "[[], [], []]\n"
     rom = image(asm, "skg-rot")
     assert image(asm, "skg") == (ROOT / "roms" / "skg.bin").read_bytes()
 
@@ -93,6 +103,28 @@ def test_a_statement(asm: Path) -> None:
     assert board.tape == run(turned).tape
     assert board.type("CUT (0,0)") == []
     assert board.type("ROT 5")[-1] == "ERR 06"
+
+    # The reference and the test that holds the ROM beside it, in a copy of the tools.
+    top = asm.parent
+    shutil.copytree(ROOT / "tools" / "skg", top / "tools" / "skg", ignore=shutil.ignore_patterns("__pycache__"))
+    (top / "build").symlink_to(ROOT / "build")
+    (top / "tools" / "skg" / "ref" / "rot.lark").write_text(grammar)
+    (top / "tools" / "skg" / "ref" / "rot.py").write_text(reference)
+    (top / "tests").mkdir()
+    shutil.copy(ROOT / "tests" / "rom" / "romhelp.py", top / "tests")
+    (top / "tests" / "test_rot.py").write_text(test)
+    shutil.copytree(ROOT / "roms", top / "roms")
+    (top / "roms" / "skg-rot.bin").write_bytes(rom)
+    places = {"PYTHONPATH": str(top / "tools"), "SKG_ROM": str(top / "roms" / "skg.bin")}
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "tests/test_rot.py"]
+    done = subprocess.run(command, cwd=top, env=os.environ | places, capture_output=True, text=True)
+    assert done.returncode == 0 and "3 passed" in done.stdout, done.stdout + done.stderr
+    # (a reference that forgets the turn of CUT is told from the ROM)
+    replaced(
+        top / "tools" / "skg" / "ref" / "rot.py", "element(turned(value, self.angle)", "element(turned(value, ZERO)"
+    )
+    done = subprocess.run(command, cwd=top, env=os.environ | places, capture_output=True, text=True)
+    assert "2 failed, 1 passed" in done.stdout, done.stdout
 
 
 def test_a_board(asm: Path) -> None:
