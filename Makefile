@@ -116,6 +116,7 @@ lint: EMU_ROWS_OF = -I. -DNAME=translation -DROWS='"build/emu/skg.rows"'
 lint: venv emu web-lint
 	$(VENV)/bin/ruff check $(RUFF)
 	$(VENV)/bin/ruff format --check $(RUFF)
+	$(VENV)/bin/mypy --config-file tools/pyproject.toml --cache-dir build/mypy
 	$(VENV)/bin/clang-format --dry-run -Werror $(C_STYLED)
 	@for file in $(C_SOURCES); do $(CC) $(EMU_CFLAGS) $(EMU_PROGRAM_FLAGS) $(EMU_ROWS_OF) -Werror -c -o /dev/null $$file || exit 1; done
 	@for file in $(wildcard tools/skg/native/*.c); do $(CC) $(TOOLS_CFLAGS) -Werror -c -o /dev/null $$file || exit 1; done

@@ -157,8 +157,11 @@ def bridges(value: object) -> tuple[tuple[float, float, float, float], ...]:
     """Check a list of lines, [x, y, x, y]."""
     if not isinstance(value, list | tuple):
         raise Wrong(Phrase("value-bridges"))
-    lines = [tuple(_numbers(line, 4, number(), "value-bridges")) for line in value]
-    return tuple(dict.fromkeys(lines))
+    lines: dict[tuple[float, float, float, float], None] = {}
+    for line in value:
+        x, y, u, v = _numbers(line, 4, number(), "value-bridges")
+        lines[x, y, u, v] = None
+    return tuple(lines)
 
 
 def passes(value: object, least: int = 1) -> tuple[float, ...]:
