@@ -60,9 +60,12 @@ class Section:
 
     @property
     def blocks(self) -> list[str]:
-        """Fences and commands as they stand, without remarks; of a picture, its file."""
+        """Fences and commands as they stand, without remarks; of a picture, its file. (NAME-zh.png is NAME.png in
+        Chinese)"""
         return [
-            str((self.folder / block["picture"]).resolve()) if block["picture"] else REMARK.sub(r"\1", block[0])
+            re.sub(r"-zh(?=\.png$)", "", str((self.folder / block["picture"]).resolve(strict=True)))
+            if block["picture"]
+            else REMARK.sub(r"\1", block[0])
             for block in BLOCK.finditer(self.body)
         ]
 
