@@ -155,11 +155,15 @@ def rom_list(images: list[str]) -> str:
     """Which image is for which machine, as README.md has it; an image that is not there is an error."""
     rows: dict[str, str] = {}
     for machine, files in re.findall(r"^\| (.+?) \| (`roms/.*) \|$", README.read_text(encoding="utf-8"), re.M):
-        # (links are of no use in a text; a row of two machines has two files)
+        # (links are of no use in a text; the row of some machines has as many files)
         plain = re.sub(r" ?\((?:\[[^]]*\]\([^)]*\)(?:, )?)+\)", "", machine).replace("`", "").replace("roms/", "")
-        named = re.findall(r"`roms/([\w.-]+)`", files)
-        each = plain.split("; ") if len(named) > 1 else [plain]
-        for file, one in zip(named, each, strict=True):
+        each = plain.split("; ")
+        for at, (words, file) in enumerate(re.findall(r"([^;`]*)`roms/([\w.-]+)`", files)):
+            # (a file with words of its own: "without a serial chip `roms/x.bin`")
+            if words := words.strip():
+                one = f"{plain}, {words}"
+            else:
+                one = each[min(at, len(each) - 1)] if files.count("`roms/") > 1 else plain
             rows[file] = f"{rows[file]}; {one}" if file in rows else one
     rows["skg.sym"] = "names of the standard ROM, for skg80 --debug"
     rows[PICO.name] = "a Raspberry Pi Pico: drop the file on it"

@@ -26,6 +26,8 @@ import trial
 from elftools.elf.elffile import ELFFile
 from macholib.MachO import MachO
 
+import build
+
 ROOT = Path(__file__).resolve().parents[1]
 DIST, BUILD = ROOT / "dist", ROOT / "build" / "release"
 EXAMPLES = sorted((ROOT / "examples").glob("*.skg"))
@@ -314,6 +316,18 @@ def check_skg80(name: str, command: Callable[..., list[str]]) -> str:
     return f"{len(EXAMPLES)} of {len(EXAMPLES)} tapes and papers, {len(calls) - len(EXAMPLES)} more calls"
 
 
+def check_again() -> str:
+    """Sources and ROM images, built once more: the same bytes."""
+    # (the time of the build is in the sources' gzip)
+    os.environ["SOURCE_DATE_EPOCH"] = str(int.from_bytes(found("*.tar.gz").read_bytes()[4:8], "little"))
+    with tempfile.TemporaryDirectory() as folder:
+        build.DIST = Path(folder)
+        made = [build.source_distribution(), build.roms()]
+        if differ := [file.name for file in made if file.read_bytes() != (DIST / file.name).read_bytes()]:
+            raise Failed(f"built once more, these differ: {', '.join(differ)}")
+    return ", ".join(file.name for file in made)
+
+
 # What is not run
 
 
@@ -412,6 +426,7 @@ def main() -> None:
             lambda: check_skg80("skg80-*-linux-aarch64", lambda program: [needed("qemu-aarch64"), str(program)]),
         ),
         ("page, chromium", check_page),
+        ("built once more", check_again),
         ("linux tags", check_linux_tags),
         ("macos", check_macos),
     ]
