@@ -992,7 +992,7 @@ def test_sheet(tmp_path: Path, size: float, columns: int, kinds: list[str]) -> N
     told = (re.search(r"(\d+) without room", text.get_text()) for text in sheet.axes.texts)
     left_out = next((int(found[1]) for found in told if found), 0)
     assert len(numbers) + left_out == len(contours) and len(numbers) >= min(len(contours), 100)
-    assert len(others) > 5 * len(sheet.job.routes[:300])
+    assert len(others) > 5 * len(sheet.result.routes[:300])
     assert not len(shapely.STRtree(others).query(boxes, "intersects")[0])
     assert min(text.get_fontsize() for text in sheet.axes.texts) >= 5
     marks = [Point(patch.center).buffer(patch.radius) for patch in sheet.axes.patches if patch.get_gid() == "hole"]
