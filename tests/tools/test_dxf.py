@@ -564,7 +564,10 @@ def test_not_a_drawing(run_program: Run, data: str) -> None:
         (["dxf", "tape.3b", "--start", "nan,1"], "'nan,1': expected numbers of at most 8 digits"),
         (["dxf", "tape.3b", "--start", "1,nan"], "'1,nan': expected numbers of at most 8 digits"),
         (["dxf", "two.skg"], "skg: two.skg: ERR 06 LINE 40, geometry impossible, in contour 2. OPENING: 1 CIRCLE"),
-        (["dxf", "two.skg", "--skg80", "reference"], "skg: two.skg: ERR 06 LINE 40, geometry impossible, in contour 2. OPENING: 1 CIRCLE"),
+        (
+            ["dxf", "two.skg", "--skg80", "reference"],
+            "skg: two.skg: ERR 06 LINE 40, geometry impossible, in contour 2. OPENING: 1 CIRCLE",
+        ),
         (["ref", "tape.skg"], "skg: tape.skg: a 3B tape, expected an SKG program"),
     ],
 )
