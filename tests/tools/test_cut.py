@@ -882,6 +882,62 @@ def test_contours_with_passes_of_their_own(one: tuple[float, ...], other: tuple[
         assert {fault.route for fault in faults} == {at}, faults
 
 
+def test_the_middles_of_straight_pieces_hide_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The check finds the same where it looks at their ends alone: the wire right, bent, crossing its line, beside a
+    hole that it cuts into, wanted elsewhere."""
+    from skg.checking import check_coverage, check_distance
+    from skg.checking.check import check
+    from skg.cutting.ladder import make
+    from skg.geometry.contour import Contour, Edge
+    from skg.geometry.pieces import Pieces
+    from skg.planning.plan import plan
+
+    def closed(*corners: tuple[float, float]) -> Contour:
+        return Contour(tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)), True)
+
+    def hole(x: float, y: float) -> Contour:
+        return Contour((Edge((x + 0.5, y), (x + 0.5, y), (x, y), 2 * pi),), True)
+
+    outline = closed((0.0, 0.0), (40.0, 0.0), (40.0, 10.0), (20.0, 10.4), (0.0, 10.0))
+    routes = plan([outline, hole(20.0, 5.0)], [], Wanted(offset=0.1))
+    made = make(routes, "part", MachineSetup())
+    bottom = re.search(rb"B(\d+)B0+B\1GXL1", made.data) or re.search(rb"B(\d+)B0+B\1GXL3", made.data)
+    long = int(bottom[1])
+    digit = bottom[0][-1:]
+
+    def straight(x: int, y: int, way: bytes) -> bytes:
+        return b"B%dB%dB%dGXL%b" % (x, y, x, way)
+
+    up, down = (b"1", b"4") if digit == b"1" else (b"3", b"2")
+    bump = straight(long // 2, 20, up) + b"\r\n" + straight(long - long // 2, 20, down)
+    over = straight(long // 2, 400, up) + b"\r\n" + straight(long - long // 2, 400, down)
+    tapes_of = [made.data, *(made.data.replace(bottom[0], other) for other in (bump, over))]
+    near = plan([outline, hole(20.0, 0.55)], [], Wanted(offset=0.1))
+    tilted = plan(
+        [closed((0.0, 0.0), (40.0, 0.004), (40.0, 10.0), (20.0, 10.4), (0.0, 10.0)), hole(20.0, 5.0)],
+        [],
+        Wanted(offset=0.1),
+    )
+    looked_at = []
+    places = Pieces.nearest
+    monkeypatch.setattr(Pieces, "nearest", lambda self, at, *rest: looked_at.append(len(at)) or places(self, at, *rest))
+
+    def found(data: bytes, wanted: list) -> tuple:
+        looked_at.clear()
+        checked = check(tapes.parse(data, "part"), wanted, True)
+        faults = [(fault.route, fault.is_into, fault.is_missed) for fault in checked.faults]
+        return (faults, len(checked.crossings), round(checked.off, 9)), sum(looked_at)
+
+    cases = [*((data, routes) for data in tapes_of), (made.data, near), (made.data, tilted)]
+    quick = [found(*case) for case in cases]
+    for module in (check_distance, check_coverage):
+        monkeypatch.setattr(module, "_bare", lambda *_: None)
+    slow = [found(*case) for case in cases]
+    assert [one for one, _ in quick] == [one for one, _ in slow]
+    assert not quick[0][0][0] and quick[1][0][0] and quick[2][0][0] and quick[3][0][0]
+    assert quick[0][1] < slow[0][1] / 2
+
+
 def test_passes(run: Run, tmp_path: Path) -> None:
     """A die: each pass is shapely's offset by what is left to do, every second one the other way round."""
     page = drawing()

@@ -8,7 +8,7 @@ import numpy as np
 
 from skg.checking.wire_path import LIMIT, Beside, Misfit, Share, WirePath, first_of_each, place_of
 from skg.geometry.arrays import Flags, Floats, Whole
-from skg.geometry.pieces import Pieces
+from skg.geometry.pieces import Bare, Pieces
 from skg.geometry.plane import cross
 
 #: A place at the end of a piece is looked at so far within it; what is less apart is the same place, mm.
@@ -31,7 +31,7 @@ def not_reached(
     faults: dict[tuple[int, int], Misfit] = {}
     worst = 0.0
     looked_at, along = _looked_at(share, min(beside.spacing, _ALONG), along)
-    places = contours.batches(beside.spacing, 2, some=looked_at)
+    places = contours.batches(beside.spacing, 2, some=looked_at, bare=_bare(share, beside, looked_at))
     for which, part in chain(places, [_by_inner_corners(path.pieces, share, widest)] if widest else []):
         # (a chord of a curve is square to it in its middle alone)
         true = ~contours.is_chord[which] | (part > 0) & (part < 1)
@@ -57,6 +57,27 @@ def not_reached(
                 faults.setdefault((number, owner), fault)
             worst = max(worst, float(off[np.isfinite(off)].max(initial=0.0)))
     return faults, worst, along
+
+
+def _bare(share: Share, beside: Beside, some: Whole) -> Bare | None:
+    """The lines beside which, but at their ends, the wire has room and one straight piece in reach in each pass."""
+    if not beside.widest:
+        return None
+    contours, end = share.contours, 3 * beside.reach
+    some, front, back = contours.middles(some, beside.spacing, end)
+    reach = 2 * beside.widest + LIMIT
+    is_bare = (
+        contours.alone(np.minimum(front, back) - reach, np.maximum(front, back) + reach, contours.owner[some]) == some
+    )
+    square = contours.normal(some, np.zeros(len(some)))
+    for number, r in enumerate(beside.offsets.T):
+        aside = r[contours.owner[some], None] * square
+        ends = front + aside, back + aside
+        low, high = np.minimum(*ends) - 2 * LIMIT, np.maximum(*ends) + 2 * LIMIT
+        is_bare &= beside.wires[number].alone(low, high, contours.owner[some]) >= 0
+    pieces = np.zeros(len(contours.length), bool)
+    pieces[some[is_bare]] = True
+    return Bare(pieces, end)
 
 
 def _looked_at(share: Share, spacing: float, along: float) -> tuple[Whole, float]:

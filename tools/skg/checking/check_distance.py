@@ -17,7 +17,7 @@ from skg.checking.gouges import Crossing, crossings
 from skg.checking.wire_path import LIMIT, Beside, Misfit, Share, WirePath, first_of_each, place_of
 from skg.geometry.arrays import Floats, Whole, numbers_up_to
 from skg.geometry.piece import Piece
-from skg.geometry.pieces import Nearest, Pieces
+from skg.geometry.pieces import Bare, Nearest, Pieces
 from skg.geometry.plane import XY
 from skg.planning.route import Lead, PlannedContour
 
@@ -38,7 +38,8 @@ def off_contours(path: WirePath, share: Share, beside: Beside) -> tuple[list[Mis
     faults: dict[int, Misfit] = {}
     near_others: list[tuple[Whole, Whole]] = []
     worst = 0.0
-    for which, part in wire.batches(beside.wire_spacing, 2, some=share.wire):
+    bare = _bare(path, share, beside)
+    for which, part in wire.batches(beside.wire_spacing, 2, some=share.wire, bare=bare):
         places, owners = wire.at(which, part), wire.owner[which]
         near = contours.nearest(places, owners, beside.reach)
         passes = path.passes[which]
@@ -53,6 +54,32 @@ def off_contours(path: WirePath, share: Share, beside: Beside) -> tuple[list[Mis
         near_others.append((which[close], np.unique(contours.owner[near.other_at[close]])))
         worst = max(worst, float(total[~into & np.isfinite(total)].max(initial=0.0)))
     return list(faults.values()), near_others, worst
+
+
+def _bare(path: WirePath, share: Share, beside: Beside) -> Bare | None:
+    """The straight pieces of the wire that have one line of their own contour beside them, and nothing else in reach,
+    but at their ends: between these the distance from it changes evenly."""
+    if not beside.widest:
+        return None
+    wire, contours, end = path.pieces, share.contours, 3 * beside.reach
+    some, front, back = wire.middles(share.wire, beside.wire_spacing, end)
+    reach = beside.reach
+    line = contours.alone(np.minimum(front, back) - reach, np.maximum(front, back) + reach, wire.owner[some])
+    is_there = line >= 0
+    some, front, back, line = some[is_there], front[is_there], back[is_there], line[is_there]
+    sides, aside = [], beside.beside(wire.owner[some], path.passes[some])
+    is_bare = np.ones(len(some), bool)
+    off = np.zeros(aside.shape)
+    for places in (front, back):
+        part = contours.part(places, line)
+        is_bare &= (part > 0) & (part < 1)
+        sides.append(contours.right_of(places, line))
+        off = np.maximum(off, np.abs(np.abs(sides[-1])[:, None] - aside))
+    # (by the same R at both ends, and on the same side)
+    is_bare &= (off <= _USUAL).any(1) & (sides[0] * sides[1] > 0)
+    pieces = np.zeros(len(wire.length), bool)
+    pieces[some[is_bare]] = True
+    return Bare(pieces, end)
 
 
 def into_others(
@@ -80,6 +107,7 @@ class _Wanted:
     def __init__(self, share: Share, beside: Beside) -> None:
         self.share = share
         self.contours = share.contours
+        self.beside = beside
         self.routes, self.aside, self.is_open = beside.routes, beside.aside, beside.is_open
         self.reach = beside.widest + 2 * LIMIT
 
@@ -97,17 +125,9 @@ class _Wanted:
         """Distance of places from the leads of their routes."""
         return self.leads.nearest(places, owners, 2 * LIMIT).own if len(places) else np.empty(0)
 
-    def beside(self, owners: Whole, passes: Whole) -> Floats:
-        """Intended distance of places from their contours: in their pass, or in any (passes of -1)."""
-        found, known = self.aside[owners], passes >= 0
-        if found.shape[1] == 1:
-            return found
-        found[known] = found[known, passes[known]][:, None]
-        return found
-
     def off_by(self, places: Floats, owners: Whole, passes: Whole, near: Nearest) -> tuple[Floats, np.ndarray]:
         """Distance of places from the intended path, and which of them run into their own contour."""
-        aside = self.beside(owners, passes)
+        aside = self.beside.beside(owners, passes)
         off = np.abs(near.own[:, None] - aside).min(1)
         # (a start hole may be nearer than the first pass)
         into = near.own < self.aside[owners].min(1) - LIMIT

@@ -72,6 +72,14 @@ class Beside:
             self.slack = hypot(self.widest, self.wire_spacing / 2) - self.widest + LIMIT
         self.reach = self.widest + self.slack + 2 * LIMIT
 
+    def beside(self, owners: Whole, passes: Whole) -> Floats:
+        """Intended distance of places from their contours: in their pass, or in any (passes of -1)."""
+        found, known = self.aside[owners], passes >= 0
+        if found.shape[1] == 1:
+            return found
+        found[known] = found[known, passes[known]][:, None]
+        return found
+
 
 class Share(NamedTuple):
     """Some of the routes, that follow each other: their numbers; the contours of these, and of all others that their

@@ -10,7 +10,7 @@ from threading import Lock
 
 import numpy as np
 
-from skg.geometry.arrays import Floats, Whole, columns_at, directions, hypots, numbers_up_to
+from skg.geometry.arrays import Flags, Floats, Whole, columns_at, directions, hypots, numbers_up_to
 from skg.geometry.edge_arrays import rows_of
 from skg.geometry.index import Boxes, Index
 from skg.geometry.piece import Piece
@@ -30,6 +30,14 @@ class Nearest:
     own_at: Whole
     other: Floats
     other_at: Whole
+
+
+@dataclass(frozen=True)
+class Bare:
+    """Lines (marked among the pieces) between whose ends, each `end` long (mm), nothing has to be looked at."""
+
+    pieces: Flags
+    end: float
 
 
 class Pieces:
@@ -116,20 +124,64 @@ class Pieces:
         return np.where(self.is_arc[which], arc, line)
 
     def batches(
-        self, spacing: float, least: int, turn: float = pi / 12, some: Whole | None = None
+        self,
+        spacing: float,
+        least: int,
+        turn: float = pi / 12,
+        some: Whole | None = None,
+        bare: Bare | None = None,
     ) -> Iterator[tuple[Whole, Floats]]:
         """Pieces, all or those with `some` numbers, and parts of them: both ends, and places no further apart than
         `spacing`, at least `least` spaces; on an arc no further than it takes to `turn` (radians). Some pieces after
-        the other."""
+        the other. In the middles of `bare` pieces are no places but their ends."""
         numbers = np.arange(len(self.length)) if some is None else some
         for low in range(0, len(numbers), _PLACES):
             few = numbers[low : low + _PLACES]
             spaces = self._spaces(few, spacing, least, turn)
-            ends = np.cumsum(spaces + 1)
+            # (of a bare piece the last place of the first end, and how many come between it and the other end's)
+            last, left_out = np.zeros((2, len(few)), np.int64)
+            if bare is not None:
+                at = np.flatnonzero(bare.pieces[few])
+                last[at] = self._last_of_end(few[at], spaces[at], bare.end)
+                left_out[at] = spaces[at] - 2 * last[at] - 1
+            ends = np.cumsum(spaces + 1 - left_out)
             cuts = np.unique(np.searchsorted(ends, np.arange(0, ends[-1] + _PLACES, _PLACES), "right"))
             for begin, end in pairwise(cuts.tolist()):
-                which, part = spread(spaces, begin, end)
-                yield few[which], part
+                count = spaces[begin:end] + 1 - left_out[begin:end]
+                which, number = np.repeat(np.arange(begin, end), count), numbers_up_to(count)
+                number += left_out[which] * (number > last[which])
+                yield few[which], number / spaces[which]
+
+    def middles(self, some: Whole, spacing: float, end: float) -> tuple[Whole, Floats, Floats]:
+        """Those of some pieces that are lines and much longer than two ends so long (mm), and the places between which
+        their middles are: of those that `batches` has with such a spacing and two spaces."""
+        long = some[~self.is_arc[some] & ~self.is_chord[some] & (self.length[some] > 4 * (end + spacing))]
+        spaces = self._spaces(long, spacing, 2, pi / 12)
+        part = self._last_of_end(long, spaces, end) / spaces
+        return long, self.at(long, part), self.at(long, 1 - part)
+
+    def _last_of_end(self, some: Whole, spaces: Whole, end: float) -> Whole:
+        """The number of the place where a first end so long is over, of pieces that are divided by so many spaces."""
+        return np.ceil(end * spaces / self.length[some]).astype(np.int64)
+
+    def alone(self, low: Floats, high: Floats, owners: Whole) -> Whole:
+        """The piece that comes into each of n boxes, when it is a line of that box's owner and no other piece does;
+        else -1. (a piece may be told to come into a box that it passes by)"""
+        first, is_one = np.full(len(low), -1), np.ones(len(low), bool)
+        for box, piece in self.index().within(low, high):
+            # (a stretch of the index takes in what is around a corner)
+            ends = self.start[piece], self.end[piece]
+            is_in = ((np.minimum(*ends) <= high[box]) & (np.maximum(*ends) >= low[box])).all(1) | self.is_arc[piece]
+            box, piece = box[is_in], piece[is_in]
+            unknown = first[box] < 0
+            # (of several new ones of a box the last stays, which the others are not)
+            first[box[unknown]] = piece[unknown]
+            is_one[box[first[box] != piece]] = False
+        known = np.flatnonzero(is_one & (first >= 0))
+        is_fit = ~self.is_arc[first[known]] & (self.owner[first[known]] == owners[known])
+        result = np.full(len(low), -1)
+        result[known[is_fit]] = first[known[is_fit]]
+        return result
 
     def _spaces(self, some: Whole, spacing: float, least: int, turn: float) -> Whole:
         """In how many spaces places divide each of some pieces."""
