@@ -4,7 +4,7 @@ The key of a test file is a hash of all files of the project, but of those that 
 of other tests' folders it does not import, neither itself nor through others, and the folders and pages of `APART`
 whose name none of these tests' files says. So what nobody thought of belongs to the key. A file that comes to the
 command line (`skg.cli`, the program `skg`) or names the folder reads all of `tools/skg`. Programs and versions are in
-the key, too.
+the key, too. A file that says `tests` reads all of them, one that says `ls-files` everything.
 
 `make test-all`, and CI, keep nothing, and pass --keys instead: a test that opens a file of the project that is not in
 its key fails.
@@ -124,13 +124,17 @@ class Keys:
         reached = own | followed
         said = "\n".join(self.text(path) for path in followed if path.startswith(TESTS))
         apart = {top for top in APART if not re.search(rf"""["'/]{re.escape(top)}(?![\w-])""", said)}
-        all_tools = COMMAND_LINE.search(said)
+        if "ls-files" in said:
+            return frozenset(self.paths)
+        all_tools, all_tests = COMMAND_LINE.search(said), re.search(r"""["'/]tests["'/]""", said)
         folders = {path.rpartition("/")[0] for path in reached if path.startswith(TOOLS)} | {"tools/skg/native"}
         for path in self.paths:
             if path.startswith(TOOLS):
                 is_read = all_tools or (not path.endswith(".py") and path.rpartition("/")[0] in folders)
+            elif path.startswith(TESTS):
+                is_read = all_tests
             else:
-                is_read = not path.startswith(TESTS) and path.split("/")[0] not in apart
+                is_read = path.split("/")[0] not in apart
             if is_read:
                 reached.add(path)
         return frozenset(reached)
