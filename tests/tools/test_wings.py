@@ -27,8 +27,8 @@ ALLOWED = {
     "native": {COMMON},
     "geometry": {COMMON},
     "job": {COMMON, "geometry"},
-    "machine": {COMMON, "native"},
     "tape": {COMMON, "native", "geometry"},
+    "machine": {COMMON, "native", "tape"},
     "reading": {COMMON, "geometry", "job"},
     "planning": {COMMON, "geometry", "job"},
     "checking": {COMMON, "geometry", "tape", "planning", "ref"},
@@ -38,7 +38,7 @@ ALLOWED = {
     "pictures": {COMMON, "geometry", "job", "tape", "planning", "checking", "cutting"},
 }
 ALLOWED["dialects"] = {COMMON, "geometry", "job", "planning", "tape"}
-ALLOWED["ui"] = {COMMON, "geometry", "job", "tape", "planning", "cutting", "pipeline", "pictures"}
+ALLOWED["ui"] = {COMMON, "geometry", "job", "reading", "tape", "planning", "cutting", "pipeline", "pictures"}
 ALLOWED["commands"] = set(ALLOWED) - {"native"}
 #: Modules beside the wings that are nobody's ground: the package's door, and the command line.
 DOORS = {"skg", "skg.cli", "skg.__main__"}

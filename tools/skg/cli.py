@@ -17,10 +17,10 @@ from skg.interrupts import interrupts_end
 with interrupts_end():
     import click
 
+    from skg.commands.help import speak, translated, translations
     from skg.errors import UserError, of_system
     from skg.garbage import collect_rarely
     from skg.messages.finding import Finding, Phrase
-    from skg.messages.help import speak, translated, translations
     from skg.messages.render import language_of_system, speech
     from skg.terminal import tell
 

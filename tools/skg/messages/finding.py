@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 from skg.messages.severity import Severity, severity_of
+
+#: What writes a phrase in this process's language. (`render` puts it here, which knows phrases: the package imports it.)
+written: list[Callable[[Phrase], str]] = []
 
 
 @dataclass(frozen=True, init=False)
@@ -24,9 +28,7 @@ class Phrase:
 
     def __str__(self) -> str:
         """The sentence in this process's language; a finding's with its source."""
-        from skg.messages.render import line, text
-
-        return line(self) if isinstance(self, Finding) else text(self)
+        return written[0](self)
 
     def __getitem__(self, name: str) -> Any:  # noqa: ANN401
         """A value by its name."""

@@ -12,7 +12,7 @@ from enum import Enum
 from typing import Any
 
 from skg.messages.catalogue import template
-from skg.messages.finding import Finding, Phrase
+from skg.messages.finding import Finding, Phrase, written
 from skg.messages.settings import KEYS, LISTS, SETTINGS, TOP
 from skg.messages.severity import Severity
 from skg.wording import short, shown, visible
@@ -168,3 +168,6 @@ def language_of_system() -> str:
         # (a language's own number is in the lower ten bits: 4 is Chinese)
         return "zh" if ctypes.windll.kernel32.GetUserDefaultUILanguage() & 0x3FF == 4 else "en"
     return "en"
+
+
+written.append(lambda phrase: line(phrase) if isinstance(phrase, Finding) else text(phrase))

@@ -60,7 +60,7 @@ class Hung:
 
 
 @dataclass
-class Stretch:
+class Leg:
     """A line or an arc of the contour; no text: a line between points, which SKG brings in by itself."""
 
     curve: ExactCurve
@@ -96,10 +96,10 @@ class Pin:
     point: ExactPoint
     text: SkgText
     fillet: Arc | None = None
-    arc: Stretch | None = None
+    arc: Leg | None = None
 
 
-Part = Stretch | Pin
+Part = Leg | Pin
 
 
 # The items -----------------------------------------------------------------------------------------------------
@@ -176,7 +176,7 @@ def between(a: Hung, b: Hung, index: int) -> tuple[ExactPoint, ExactPoint, list[
         return arc.start, arc.end, [arc]
     if a.is_pin and b.is_pin:
         line = ExactLine(a.value, (b.value - a.value).unit())
-        return a.value, b.value, [Stretch(line, a.value, b.value)]
+        return a.value, b.value, [Leg(line, a.value, b.value)]
     for pin, circle in ((a, b), (b, a)):
         if pin.is_pin:
             if on(circle.value, pin.value):
@@ -191,10 +191,10 @@ def between(a: Hung, b: Hung, index: int) -> tuple[ExactPoint, ExactPoint, list[
         touch = touching_point(a.value, b.value)
         return touch, touch, [Pin(touch, join(a.text, "*", b.text))]
     leaves, joins = (h.value if h.is_pin else touching_point(h.value, line) for h in (a, b))
-    return leaves, joins, [Stretch(line, leaves, joins, join(a.text, ":", b.text))]
+    return leaves, joins, [Leg(line, leaves, joins, join(a.text, ":", b.text))]
 
 
-def _connecting(a: Hung, b: Hung, arc: Arc) -> Stretch:
+def _connecting(a: Hung, b: Hung, arc: Arc) -> Leg:
     """The arc of the given radius from one circle to the other (SKG book, B 9-5)."""
     size = abs(arc.radius)
     text = arc.text if arc.radius > 0 else minus(arc.text)
@@ -210,10 +210,10 @@ def _connecting(a: Hung, b: Hung, arc: Arc) -> Stretch:
     except PlaneError as error:
         raise TextFault(arc.token.start_pos, f"the connecting arc does not reach: {error}") from None
 
-    def stretch(circle: ExactCircle) -> Stretch:
-        return Stretch(circle, touching_point(a.value, circle), touching_point(b.value, circle))
+    def stretch(circle: ExactCircle) -> Leg:
+        return Leg(circle, touching_point(a.value, circle), touching_point(b.value, circle))
 
-    best = min(map(stretch, circles), key=Stretch.angle)
+    best = min(map(stretch, circles), key=Leg.angle)
     first, second = (join(h.text, ":", text if clockwise else minus(text)) for h in (a, b))
     right = SkgText(f"-({second})", 0o55) if clockwise else second
     best.text = join(join(first, "*", right), ":", minus(text) if clockwise else text)
@@ -236,7 +236,7 @@ def contour(items: list[Hung], closes: int) -> tuple[list[Part], list[int]]:
         if items[0].arc:
             raise TextFault(items[0].arc.token.start_pos, "a connecting arc stands between two circles")
         circle = items[0].value
-        return [Stretch(circle, circle.centre, circle.centre, items[0].text, whole=True)], [0]
+        return [Leg(circle, circle.centre, circle.centre, items[0].text, whole=True)], [0]
     follows = [
         between(
             item,
@@ -253,9 +253,9 @@ def contour(items: list[Hung], closes: int) -> tuple[list[Part], list[int]]:
         if item.is_pin:
             parts.append(Pin(item.value, item.text, item.arc))
         else:
-            parts.append(Stretch(item.value, follows[index - 1][1], leaves, item.text))
+            parts.append(Leg(item.value, follows[index - 1][1], leaves, item.text))
         parts += after
-    curves = [part for part in parts if isinstance(part, Stretch)]
+    curves = [part for part in parts if isinstance(part, Leg)]
     if len(curves) == 1:
         # One circle and a point on it.
         curves[0].whole = True
@@ -273,7 +273,7 @@ def _round(parts: list[Part]) -> None:
         start = pin.fillet.token.start_pos
         if pin.fillet.radius <= TINY:
             raise TextFault(start, "the radius of a fillet must be more than 0")
-        around = [part for part in parts[index + 1 :] + parts[:index] if isinstance(part, Stretch)]
+        around = [part for part in parts[index + 1 :] + parts[:index] if isinstance(part, Leg)]
         if not around or around[0].whole:
             pin.fillet = None
             continue
@@ -291,7 +291,7 @@ def _round(parts: list[Part]) -> None:
         before.end, after.start = pin.arc.start, pin.arc.end
 
 
-def _fillet(e: ExactCurve, f: ExactCurve, radius: Real, angle: Real) -> Stretch:
+def _fillet(e: ExactCurve, f: ExactCurve, radius: Real, angle: Real) -> Leg:
     """The arc that touches both on the inner side of a corner that turns by `angle`."""
     if mp.pi - abs(angle) <= SAME_WAY:
         raise PlaneError("the route turns straight back")
@@ -304,10 +304,10 @@ def _fillet(e: ExactCurve, f: ExactCurve, radius: Real, angle: Real) -> Stretch:
     ends = [
         touching_point(arc, curve) if isinstance(curve, ExactLine) else touching_point(curve, arc) for curve in (e, f)
     ]
-    return Stretch(arc, *ends)
+    return Leg(arc, *ends)
 
 
-def stretches(parts: list[Part]) -> list[Stretch]:
+def stretches(parts: list[Part]) -> list[Leg]:
     """All that is travelled, the arcs of fillets too, in order."""
     pieces = (part.arc if isinstance(part, Pin) else part for part in parts)
     return [stretch for stretch in pieces if stretch is not None and stretch.is_travelled]

@@ -24,7 +24,7 @@ from skg.rivals.plane import (
     turn,
     way_at,
 )
-from skg.rivals.route import Part, Pin, Stretch, stretches
+from skg.rivals.route import Leg, Part, Pin, stretches
 
 #: Gives a name of the translator's own to an element: its SKG text (None: computed numbers), and its value.
 Namer = Callable[[SkgText | None, ExactElement], SkgText]
@@ -37,7 +37,7 @@ class Entry:
     """The first stretch that is cut, from the start point on; `inner`: the crossing on the wire's path where it enters,
     None where it enters at the start point's own place."""
 
-    first: Stretch
+    first: Leg
     inner: ExactPoint | None
 
 
@@ -97,7 +97,7 @@ def written(parts: list[Part], entry: Entry, name: Namer) -> list[str]:
         # It begins with the arc of a fillet.
         begin = name(None, first.start)
         circle = name(None, first.curve)
-        body = [Stretch(first.curve, first.start, first.end, circle), Pin(first.end, name(None, first.end))]
+        body = [Leg(first.curve, first.start, first.end, circle), Pin(first.end, name(None, first.end))]
         return [str(begin), *_texts([*body, *parts[index + 1 :], *parts[:index]], name), str(begin)]
     before = parts[index - 1]
     rest = [*parts[index:], *parts[:index]]
@@ -124,7 +124,7 @@ def written(parts: list[Part], entry: Entry, name: Namer) -> list[str]:
     return [str(begin), *_texts(rest, name), str(begin)]
 
 
-def _joint(before: Stretch, first: Stretch) -> SkgText | None:
+def _joint(before: Leg, first: Leg) -> SkgText | None:
     """Touching point of a belt line and a circle, in their own terms."""
     line, circle = (before, first) if isinstance(before.curve, ExactLine) else (first, before)
     if isinstance(circle.curve, ExactLine) or isinstance(line.curve, ExactCircle) or line.text is None:
@@ -153,7 +153,7 @@ def repeated(parts: list[Part], count: int, entry: Entry, name: Namer) -> list[s
     None where the wire enters elsewhere than where the first item is reached.
     """
     begins = parts[0]
-    first = next(part for part in parts if isinstance(part, Stretch))
+    first = next(part for part in parts if isinstance(part, Leg))
     if entry.inner is not None or entry.first.whole or entry.first is not first:
         return None
     if isinstance(begins, Pin):

@@ -23,7 +23,7 @@ from skg.rivals.plane import (
     parallel,
     same_point,
 )
-from skg.rivals.route import Stretch
+from skg.rivals.route import Leg
 from skg.rivals.start import inner_corner, wire_corner
 from skg.rivals.statement import TextFault
 from skg.rivals.tekhtran_making import chosen, crossing_text
@@ -136,20 +136,20 @@ def _run(item: ContourItem, start: _Corner, end: _Corner) -> ContourItem:
     return item if item.value.way.dot(end.place - start.place) > 0 else item.backwards()
 
 
-def _stretches(items: list[ContourItem], starts: list[_Corner], ends: list[_Corner]) -> list[Stretch]:
+def _stretches(items: list[ContourItem], starts: list[_Corner], ends: list[_Corner]) -> list[Leg]:
     """The pieces that are travelled: curves, and the lines between points."""
     pieces = []
     following = [*items[1:], items[0]]
     for item, start, end, after in zip(items, starts, ends, following, strict=True):
         if not item.is_point:
-            pieces.append(Stretch(item.value, start.place, end.place))
+            pieces.append(Leg(item.value, start.place, end.place))
         elif after.is_point:
             direction = (after.value - item.value).unit()
-            pieces.append(Stretch(ExactLine(item.value, direction), item.value, after.value))
+            pieces.append(Leg(ExactLine(item.value, direction), item.value, after.value))
     return pieces
 
 
-def _check_entry(item: ContourItem, stretches: list[Stretch], wire: ExactPoint, offset: Real) -> None:
+def _check_entry(item: ContourItem, stretches: list[Leg], wire: ExactPoint, offset: Real) -> None:
     """True if BACK will find the place where the wire entered the first item."""
     last, first, second = stretches[-1], stretches[0], stretches[1]
     if item.is_point:
@@ -162,7 +162,7 @@ def _check_entry(item: ContourItem, stretches: list[Stretch], wire: ExactPoint, 
     start = wire_corner(last.curve, first.curve, first.start, offset)
     end = wire_corner(first.curve, second.curve, first.end, offset)
     # (without a corner SKG itself reports an error)
-    if start and end and not Stretch(path, start, end).has(nearest(wire, path)):
+    if start and end and not Leg(path, start, end).has(nearest(wire, path)):
         raise TextFault(item.token.start_pos, f"the wire would enter {item.token} outside of its own corners beside it")
 
 
