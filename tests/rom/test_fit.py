@@ -213,14 +213,18 @@ def test_regression(path: Path) -> None:
     "family", sorted({*FAMILIES, *TOL_FAMILIES}, key=lambda f: f.__name__), ids=lambda f: f.__name__
 )
 def test_family_can_be_cut(family: Family) -> None:
-    """Most programs of each family run through, and make fitted blocks; `wide` meets error 7 too."""
+    """Most programs of each family run through, and make fitted blocks; `wide` meets error 7 too, and behind a corner
+    most meet error 6."""
     results = [reference(curve_part(Random(f"{SEED} {n}"), [family])) for n in range(12)]
     fine = sum(result.error is None for result in results)
-    assert fine >= (4 if family.__name__ in ("wide", "degenerate", "odd_nodes", "shaken", "beside_a_circle") else 7)
+    few = {"wide": 4, "degenerate": 4, "odd_nodes": 4, "shaken": 4, "beside_a_circle": 4, "behind_a_corner": 2}
+    assert fine >= few.get(family.__name__, 7)
     assert sum(s.is_arc for result in results for s in result.path) >= 10
     errors = {result.error[0] for result in results if result.error}
     if family.__name__ == "wide":
         assert 7 in errors
+    if family.__name__ == "behind_a_corner":
+        assert 6 in errors
 
 
 def test_bound_of_the_centre() -> None:

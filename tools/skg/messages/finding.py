@@ -8,7 +8,7 @@ from typing import Any
 
 from skg.messages.severity import Severity, severity_of
 
-#: What writes a phrase in this process's language. (`render` puts it here, which knows phrases: the package imports it.)
+#: What writes a phrase in this process's language: `render` puts it here, which the package imports.
 written: list[Callable[[Phrase], str]] = []
 
 
