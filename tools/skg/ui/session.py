@@ -400,7 +400,8 @@ class Session:
 
     def cut(self, rev: int) -> int:
         """Begin to make the tape: the run's number."""
-        if self._is_long:
+        # (one that was cancelled is over, if its process has not ended yet: its turn is waited for)
+        if self._is_long and not (self._run and self._run.state == "cancelled"):
             raise Conflict(Finding("busy"))
         # (the turn is given back by the thread)
         self._turn.acquire()
