@@ -109,6 +109,8 @@ def attended(port: Port, tmp_path: Path) -> Callable[..., tuple[subprocess.Popen
         process = subprocess.Popen(
             [SKG, "term", port.link, "--record", tmp_path / "tape.3b"],
             stdin=inner, stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True,
+            # (a shell's background job ignores it)
+            preexec_fn=lambda: signal.signal(signal.SIGQUIT, signal.SIG_DFL),
         )  # fmt: skip
         begun.append((process, outer, inner))
         until_raw(outer)
