@@ -31,7 +31,7 @@ VENV   := .venv
 PY     := $(VENV)/bin/python
 PAGES  := tests/floats/bounds.py tests/tools/test_drift.py tests/tools/test_dxf.py tests/tools/test_docs.py tests/tools/test_shop.py \
           tests/rom/test_circles.py tests/docs/test_curves.py tests/docs/test_manual.py tests/docs/test_chinese.py tests/docs/test_walk.py \
-          tests/docs/test_figures.py tests/docs/test_board.py
+          tests/docs/test_figures.py tests/docs/test_minimal_board.py
 PART   ?= examples/xy-fig1-loop.skg
 
 all: build/skg80 rom-age

@@ -16,8 +16,10 @@ from click.testing import CliRunner, Result
 from toolhelp import CAD_TAPE, Run
 
 from skg.cli import cli, main
+from skg.commands.help import speak
 from skg.job.file import dump, load
 from skg.job.job import Job
+from skg.messages.render import speech
 from skg.pipeline import steps
 from skg.planning.route import PlannedContour
 
@@ -78,7 +80,11 @@ def run_program(monkeypatch: pytest.MonkeyPatch) -> Callable[..., subprocess.Com
             patch.setattr(gc, "freeze", lambda: None)
             patch.setattr("skg.cli.collect_rarely", lambda: None)
             patch.setattr("skg.cli._leave", sys.exit)
-            main()
+            try:
+                main()
+            finally:  # (the tests' own process speaks English)
+                speech.language = "en"
+                speak("en")
         texts = [stream.buffer.getvalue().decode().replace("\r\n", "\n") for stream in (output, errors)]
         return subprocess.CompletedProcess(words, ended.value.code or 0, *texts)
 

@@ -4,7 +4,9 @@ built of them.
 
 from __future__ import annotations
 
+import importlib
 import re
+import sys
 import sysconfig
 from importlib.metadata import requires
 from pathlib import Path
@@ -71,7 +73,10 @@ def test_package_without_a_licence_is_refused(tmp_path: Path) -> None:
 
 
 def test_every_rom_image_is_said_to_be_for_something(monkeypatch: pytest.MonkeyPatch) -> None:
-    import build
+    # (asm/ has a module of this name, too)
+    monkeypatch.delitem(sys.modules, "build", raising=False)
+    build = importlib.import_module("build")
+    monkeypatch.delitem(sys.modules, "build")
 
     images = [file.name for file in (ROOT / "roms").iterdir()]
     text = build.rom_list(images)

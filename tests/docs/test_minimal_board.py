@@ -1,6 +1,6 @@
 """docs/board.md: its tables are those of the netlist, and the netlist is a board for roms/skg-tty.bin.
 
-    tests/docs/test_board.py            writes the tables (make docs)
+    tests/docs/test_minimal_board.py            writes the tables (make docs)
 
 `make board` looks the netlist through by SKiDL's rules; here it is read without that.
 """
