@@ -73,6 +73,7 @@ def test_package_without_a_licence_is_refused(tmp_path: Path) -> None:
 
 
 def test_every_rom_image_is_said_to_be_for_something(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In the list that goes with them, out of the table of "README.md"."""
     # (asm/ has a module of this name, too)
     monkeypatch.delitem(sys.modules, "build", raising=False)
     build = importlib.import_module("build")
