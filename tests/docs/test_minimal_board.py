@@ -16,7 +16,7 @@ from skg.machine import symbols
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs" / "board.md"
 NETLIST = (ROOT / "docs" / "board" / "minimal.net").read_text()
-#: Outputs of a 74HC138 by its inputs C, B, A.
+#: The nets of the two supplies.
 HIGH, LOW = "+5V", "GND"
 
 
