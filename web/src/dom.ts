@@ -17,3 +17,8 @@ export function make<K extends keyof HTMLElementTagNameMap>(tag: K, name: string
   element.textContent = text;
   return element;
 }
+
+/** Writes what an element says; the same once more is no change, or a screen reader would read it again. */
+export function tell(element: Element, text: string): void {
+  if (element.textContent !== text) element.textContent = text;
+}

@@ -1,6 +1,6 @@
 /** The machine's state in words, and the meaning of the button RUN. */
 
-import { get } from "./dom.ts";
+import { get, tell } from "./dom.ts";
 import { t, type Word } from "./language.ts";
 import type { State } from "./runner.ts";
 import { view } from "./shell.ts";
@@ -34,7 +34,7 @@ export class StatusLine {
     get("run").textContent = t(session.isRunning ? "stop" : "run");
     if (word === this.#said) return;
     this.#said = word;
-    get("state").textContent = session.isAlive ? t(word) : "";
+    tell(get("state"), session.isAlive ? t(word) : "");
     if (state === "input" && isByHand) {
       view("teletype");
       this.#teletype.focus();

@@ -1,4 +1,6 @@
 /** The bar below the drawing: the controller's walk to play, stop and scrub. */
+
+import { tell } from "./dom.ts";
 import type { Drawing } from "./drawing.ts";
 import { t } from "./language.ts";
 import { type Layout, nothing } from "./placed.ts";
@@ -98,7 +100,7 @@ export class WalkBar {
     play.textContent = t(this.#isPlaying ? "pause" : "play");
     play.disabled = scrub.disabled = !this.#layout.blocks.length;
     const gap = this.#walk.closing(this.#layout.routes);
-    closing.textContent = this.#problem || (isMeasuring ? t("measuring") : !gap ? "" : closingWords(gap));
+    tell(closing, this.#problem || (isMeasuring ? t("measuring") : !gap ? "" : closingWords(gap)));
     this.#show();
   }
 

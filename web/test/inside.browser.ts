@@ -117,15 +117,16 @@ describe("seen at a glance", { skip: existsSync(CHROMIUM) ? false : "chromium is
 
   test("while the wire goes, block and line follow, and a screen reader is left in peace; few stops of the Tab key", async () => {
     const { page, context } = await visit({ viewport: { width: 1440, height: 700 } });
+    await wholeTape(page);
     await prompt(page);
     await says(page, "#closing", /close/);
     await says(page, "#walked", /^block/);
     await page.evaluate(() => {
-      const said = { count: 0 };
+      const said: string[] = [];
       Object.assign(window, { said });
       for (const region of document.querySelectorAll("[role=status], [role=alert], [aria-live], output")) {
         if (region.getAttribute("aria-live") === "off") continue;
-        new MutationObserver((found) => (said.count += found.length)).observe(region, {
+        new MutationObserver(() => said.push(`${region.id}: ${region.textContent}`)).observe(region, {
           childList: true,
           subtree: true,
           characterData: true,
@@ -133,7 +134,7 @@ describe("seen at a glance", { skip: existsSync(CHROMIUM) ? false : "chromium is
       }
     });
     await says(page, "#walked", /^block 1\d/);
-    assert.equal(await page.evaluate(() => (window as unknown as { said: { count: number } }).said.count), 0);
+    assert.deepEqual(await page.evaluate(() => (window as unknown as { said: string[] }).said), []);
     await page.click("#play");
     await drawn(page);
     const seen = await page.evaluate(() => {
