@@ -21,7 +21,7 @@ from skg.job.file import dump, load
 from skg.job.job import Job
 from skg.messages.render import speech
 from skg.pipeline import steps
-from skg.planning.route import PlannedContour
+from skg.planning.planned import PlannedContour
 
 EVERY = int(os.environ.get("SKG_EVERY", "6"))
 

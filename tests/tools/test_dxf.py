@@ -90,7 +90,7 @@ def program_of(make: Callable[[], Drawing], offset: float = 0.0, **wishes: objec
     contours = contours_of(edges_of(make))
     wanted = Wanted(offset=offset, side=str(wishes.get("side", "auto")), reverse=bool(wishes.get("reverse")))
     routes = plan(contours, content_of(make).starts, wanted)
-    routes = [replace(route, has_fillets=bool(wishes.get("fillets", True))) for route in routes]
+    routes = [route.on_rung(has_fillets=bool(wishes.get("fillets", True))) for route in routes]
     return Program(routes, make.__name__).numbered()
 
 

@@ -17,7 +17,7 @@ from toolhelp import Run
 
 from skg.geometry.contour import Contour, Edge
 from skg.planning.islands import islands
-from skg.planning.route import PlannedContour
+from skg.planning.planned import PlannedContour
 
 OFFSET = 0.1
 PLATE = [(0.0, 0.0), (60.0, 0.0), (60.0, 40.0), (0.0, 40.0)]
@@ -194,7 +194,7 @@ def test_what_goes_with_an_opening_that_is_left_out() -> None:
     def rectangle(left: float, low: float, right: float, high: float, depth: int) -> PlannedContour:
         corners = [(left, low), (right, low), (right, high), (left, high)]
         edges = map(Edge, corners, corners[1:] + corners[:1])
-        return PlannedContour(Contour(tuple(edges), True), corners[0], 0.5, 0.1, depth)
+        return PlannedContour(Contour(tuple(edges), True), corners[0], 0.5, (0.1,), depth)
 
     elsewhere, part = rectangle(100, 0, 110, 10, 1), rectangle(-50, -50, 60, 60, 2)
     opening, inner, crossing = rectangle(0, 0, 10, 10, 3), rectangle(1, 1, 2, 2, 4), rectangle(2, 4, 12, 8, 3)

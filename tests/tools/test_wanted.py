@@ -52,7 +52,7 @@ def test_each_contour_has_its_own_offset_passes_and_tab() -> None:
         replace(OFFSET, offset=0.0),
     ]
     routes = {route.number: route for route in plan(plate(), [], wanted)}
-    assert [round(r, 9) for r in routes[0].passes] == [0.16, 0.12, 0.1] and routes[0].tab == 2.0
+    assert [round(r, 9) for r in routes[0].passes] == [0.16, 0.12, 0.1] and routes[0].tabs.length == 2.0
     assert [routes[at].passes for at in (1, 2, 3)] == [(0.1,), (0.15,), (0.0,)]
 
 

@@ -17,7 +17,7 @@ from skg.checking.gouges import lines_of
 from skg.checking.wire_path import LIMIT, WirePath
 from skg.geometry.areas import areas_of
 from skg.geometry.plane import XY
-from skg.planning.route import PlannedContour
+from skg.planning.planned import PlannedContour
 
 #: A piece of metal need not be held that is smaller than a square with a side of so many R, or this part of a tab: such
 #: as what is between leads that are arcs.
@@ -38,7 +38,7 @@ def fallen(path: WirePath, cuts: Sequence[Stretch], routes: Sequence[PlannedCont
     firsts = np.cumsum([0, *(cut.blocks.stop - cut.blocks.start for cut in cuts)])
     stretches: dict[int, list[tuple[Stretch, slice]]] = {}
     for cut, first, last in zip(cuts, firsts, firsts[1:], strict=False):
-        if routes[cut.route].tabs:
+        if routes[cut.route].tabs.each:
             stretches.setdefault(cut.route, []).append((cut, slice(int(first), int(last))))
     for number, some in stretches.items():
         route = routes[number]
@@ -64,5 +64,5 @@ def _hangs_together(route: PlannedContour, band: shapely.Geometry, aside: float)
     metal, edge = shapely.get_parts(box.difference(band)), shapely.Point(*box.bounds[:2])
     within = shapely.area(shapely.intersection(metal, area))
     loose = within[~shapely.intersects(metal, edge)]
-    crumb = max(_CRUMB * aside, _SCRAP * route.tab) ** 2
+    crumb = max(_CRUMB * aside, _SCRAP * route.tabs.length) ** 2
     return not (loose > crumb).any() and within.sum() > loose.sum()

@@ -32,7 +32,7 @@ from skg.geometry.edge_arrays import boxes_of
 from skg.geometry.index import batches
 from skg.geometry.piece import Piece
 from skg.geometry.pieces import Pieces
-from skg.planning.route import PlannedContour
+from skg.planning.planned import PlannedContour
 from skg.tape.block import Tape
 
 #: So many pieces of contours are looked at together.

@@ -19,7 +19,8 @@ from skg.geometry.arrays import Floats, Whole, numbers_up_to
 from skg.geometry.piece import Piece
 from skg.geometry.pieces import Bare, Nearest, Pieces
 from skg.geometry.plane import XY
-from skg.planning.route import Lead, PlannedContour
+from skg.planning.planned import PlannedContour
+from skg.planning.runs import Lead
 
 #: Rounding takes a block's end up to this far, mm: where it is further off there may be a reason.
 _USUAL = 0.0008
@@ -164,17 +165,17 @@ def _lead_pieces(route: PlannedContour) -> Iterator[Piece]:
                 yield from _one_lead(lead, run.offset, is_in)
 
 
-def _straight(hole: XY, entry: XY, way: float, r: float) -> Piece:
+def _straight(hole: XY, entry: XY, heading: float, r: float) -> Piece:
     """The way from a hole to beside an entry that is passed in a direction (radians)."""
     # The contour's right is where R is positive.
-    return Piece(hole, (entry[0] + r * sin(way), entry[1] - r * cos(way)))
+    return Piece(hole, (entry[0] + r * sin(heading), entry[1] - r * cos(heading)))
 
 
 def _one_lead(lead: Lead, r: float, is_in: bool) -> Iterator[Piece]:
     if lead.home:
         yield Piece(lead.home, lead.hole)
     if not lead.is_arc:
-        yield _straight(lead.hole, lead.entry, lead.way, r)
+        yield _straight(lead.hole, lead.entry, lead.heading, r)
         return
     arc = lead.arc(is_in)
     part = 1 - abs(r) / arc.radius

@@ -9,7 +9,7 @@ import numpy as np
 from skg.errors import UserError
 from skg.geometry.arrays import Floats, hypots
 from skg.messages.finding import Finding
-from skg.planning.route import PlannedContour
+from skg.planning.planned import PlannedContour
 from skg.tape.block import Tape, micrometres
 from skg.tape.columns import columns_of
 from skg.tape.layout import Laid
@@ -72,7 +72,7 @@ def _between_stops(route: PlannedContour) -> list[tuple[int, ...]]:
     """The numbers of the passes that follow each other without a stop; -1: all of them in one cut."""
     if not route.contour.is_closed:
         return [(-1,)]
-    if len(route.passes) == 1 and not route.tabs:
+    if len(route.passes) == 1 and not route.tabs.each:
         return [(0,)]
     groups: list[tuple[int, ...]] = []
     for run in route.runs():

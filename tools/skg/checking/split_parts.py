@@ -10,7 +10,7 @@ import shapely
 from skg.geometry.areas import areas_of
 from skg.geometry.plane import XY
 from skg.messages.finding import Finding
-from skg.planning.route import PlannedContour
+from skg.planning.planned import PlannedContour
 
 #: What is narrower than twice this holds nothing together, mm; a piece of less than this square is none.
 _HAIR = 0.005

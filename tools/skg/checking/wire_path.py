@@ -14,7 +14,7 @@ from skg.checking.follow import Followed
 from skg.geometry.arrays import Floats, Whole
 from skg.geometry.pieces import Pieces
 from skg.geometry.plane import XY
-from skg.planning.route import PlannedContour
+from skg.planning.planned import PlannedContour
 from skg.tape.controller import trace_array
 
 #: The controller may go this far from where the drawing has the wire, mm.
@@ -145,7 +145,7 @@ class WirePath:
 
 def _passes(passes: tuple[int, ...], route: PlannedContour, ends: Floats) -> Whole:
     """Return the passes of pieces that end at these places: a pass ends in a start hole."""
-    holes = np.array([*route.holes, *(tab.before for tab in route.tabs)])
+    holes = np.array([*route.holes, *(tab.before for tab in route.tabs.each)])
     is_last = (np.hypot(*(ends[:, None] - holes).T) < _HOLE).any(0)
     if is_last.sum() != len(passes):
         return np.full(len(ends), -1)

@@ -20,7 +20,7 @@ from skg.job.job import MachineSetup
 from skg.job.wanted import Wanted
 from skg.messages.finding import Finding
 from skg.planning.plan import plan
-from skg.planning.route import PlannedContour
+from skg.planning.planned import PlannedContour
 from skg.tape.block import MAX_DIGITS
 
 #: Largest deviation of FIT from the involute between its nodes, mm.

@@ -15,13 +15,13 @@ from skg.cutting import refusal
 from skg.cutting.program import Program, Step, writes_fillets
 from skg.cutting.progress import Progress, in_silence
 from skg.errors import UserError
-from skg.geometry.offset import NoRoom, has_spike
+from skg.geometry.offset import NoRoom
 from skg.job.job import MachineSetup
 from skg.machine.board import ErrorLine
 from skg.machine.feeding import MEMORY_FULL, Fed, feed, feed_lines, feed_routes, refused_routes
 from skg.messages.finding import Finding, Phrase
 from skg.planning.islands import islands
-from skg.planning.route import PlannedContour
+from skg.planning.planned import LeadShape, PlannedContour, Reason
 from skg.tape import text as tapes
 from skg.tape.block import Tape
 
@@ -99,20 +99,20 @@ def run(program: Program, machine: MachineSetup) -> CutResult:
 def _arcs_for_fillets(route: PlannedContour, trouble: _Trouble) -> PlannedContour | None:
     """A rounded corner without room to round it may still go as an arc."""
     if isinstance(trouble, ErrorLine) and writes_fillets(route):
-        return replace(route, has_fillets=False)
+        return route.on_rung(has_fillets=False)
     return None
 
 
 def _straight_lead(route: PlannedContour, _trouble: _Trouble) -> PlannedContour | None:
     """An arc that comes to the contour takes more room than a line."""
     if route.is_arc and route.contour.is_closed:
-        return replace(route, is_arc=False, is_cramped=True)
+        return route.on_rung(lead=LeadShape.CRAMPED)
     return None
 
 
 def _own_way(route: PlannedContour, _trouble: _Trouble) -> PlannedContour | None:
     """The wire's own way, without R; `NoRoom` where there is none."""
-    return route.with_wire_ways() if _may_be_traced(route) else None
+    return route.along_wire() if _may_be_traced(route) else None
 
 
 def _in_chords(route: PlannedContour, trouble: _Trouble) -> PlannedContour | None:
@@ -121,10 +121,11 @@ def _in_chords(route: PlannedContour, trouble: _Trouble) -> PlannedContour | Non
         fault.off < inf and not fault.is_into and not fault.is_missed for fault in trouble
     )
     is_bent = any(not edge.is_line for edge in route.contour.edges)
-    return route.in_chords() if is_off and is_bent and not any(route.passes) and not route.traced else None
+    return route.in_chords() if is_off and is_bent and not any(route.passes) and not route.rung.wire else None
 
 
-#: The remedies, in the order in which they are tried; each is None where it does not help, or has been tried.
+#: The remedies, in the order in which they are tried: each returns the contour on another rung, or None where it does
+#: not help, or has been tried.
 _RUNGS = (_arcs_for_fillets, _straight_lead, _own_way, _in_chords)
 
 
@@ -141,7 +142,8 @@ class _Ladder:
 
     def leave_short(self) -> None:
         """Leave contours that are too short for their tab; a `UserError` where they are refused."""
-        fits = {number: route.fits for number, route in self.routes.items() if route.fits is not None}
+        longest = {number: route.remarks.longest_tab for number, route in self.routes.items()}
+        fits = {number: length for number, length in longest.items() if length is not None}
         if fits and self.machine.small != "leave":
             raise refusal.without_tab(self.routes, fits, self.machine)
         self._leave({number: refusal.too_short(fit) for number, fit in fits.items()})
@@ -151,7 +153,7 @@ class _Ladder:
         compared first."""
         no_room: dict[int, NoRoom] = {}
         for number, route in self.routes.items():
-            if not (_may_be_traced(route) and has_spike(route.contour, route.offset, _WILD)):
+            if not (_may_be_traced(route) and route.has_spike(_WILD)):
                 continue
             why = _no_room(route)
             if why is None:
@@ -178,8 +180,8 @@ class _Ladder:
         around: dict[int, PlannedContour] = {}
         for number, route in self.routes.items():
             with suppress(NoRoom):
-                if _may_be_traced(route) and has_spike(route.contour, route.offset):
-                    around[number] = replace(route.with_wire_ways(), is_around=True)
+                if _may_be_traced(route) and route.has_spike():
+                    around[number] = route.along_wire(Reason.TIPS)
         while around:
             tried, troubles = self._try(self.routes | around)
             if not troubles:
@@ -267,7 +269,7 @@ class _Ladder:
 
 
 def _may_be_traced(route: PlannedContour) -> bool:
-    return route.contour.is_closed and all(route.passes) and not route.traced
+    return route.contour.is_closed and all(route.passes) and not route.rung.wire
 
 
 def _is_into(trouble: _Trouble) -> bool:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from skg.messages.finding import Phrase
-from skg.planning.route import PlannedContour
+from skg.planning.planned import PlannedContour
 
 #: Runs of numbers that a line names.
 _RUNS = 8
@@ -29,11 +29,10 @@ class Manner:
     @classmethod
     def of(cls, route: PlannedContour) -> Manner:
         """The manner of a planned contour."""
-        passes = route.passes or (route.offset,)
-        cuts = route.tab_passes if route.tabs else ()
-        asides = [tuple(round(abs(r), 9) for r in some) for some in (passes, cuts)]
+        tabs = route.tabs
+        asides = [tuple(round(abs(r), 9) for r in some) for some in (route.passes, tabs.passes)]
         overlap = route.overlap if route.contour.is_closed else 0.0
-        return cls(route.kind, _side(route), asides[0], route.tab, len(route.tabs), asides[1], overlap)
+        return cls(route.kind, _side(route), asides[0], tabs.length, len(tabs.each), asides[1], overlap)
 
     @property
     def phrase(self) -> Phrase:
@@ -56,7 +55,7 @@ class Manner:
 
 
 def _side(route: PlannedContour) -> str:
-    if not any(route.passes or (route.offset,)):
+    if not any(route.passes):
         return "on"
     if route.contour.is_closed:
         return "outside" if route.is_outside else "inside"
@@ -73,9 +72,9 @@ def manners(routes: Sequence[PlannedContour]) -> dict[Manner, list[int]]:
 
 def stops(routes: Sequence[PlannedContour]) -> Iterator[Phrase]:
     """Reasons for stops of the machine, each with the contours; each takes two stops, wire off and wire threaded."""
-    twice = [route for route in routes if route.contour.is_closed and len(route.passes) > 1 and not route.tabs]
-    held = {name: [route for route in routes if route.tabs and route.frees == name] for name in ("part", "slug")}
-    many = [route for route in routes if len(route.tabs) > 1]
+    twice = [route for route in routes if route.contour.is_closed and len(route.passes) > 1 and not route.tabs.each]
+    held = {name: [route for route in routes if route.tabs.each and route.frees == name] for name in ("part", "slug")}
+    many = [route for route in routes if len(route.tabs.each) > 1]
     for group, code in (
         (routes[1:], "stop-before"),
         ([route for route in twice if route.is_opening], "stop-slug"),
@@ -84,7 +83,7 @@ def stops(routes: Sequence[PlannedContour]) -> Iterator[Phrase]:
         (many, "stop-each-tab"),
         (held["part"], "stop-tab"),
         (held["slug"], "stop-slug-tab"),
-        ([route for route in held["slug"] if len(route.tab_passes) > 1], "stop-slug-out"),
+        ([route for route in held["slug"] if len(route.tabs.passes) > 1], "stop-slug-out"),
     ):
         if group:
             yield Phrase(code, contours=numbered(route.turn for route in group))

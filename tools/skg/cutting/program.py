@@ -17,7 +17,8 @@ from skg.errors import UserError
 from skg.geometry.contour import Edge
 from skg.geometry.plane import XY, distance, polar, turn
 from skg.messages.finding import Finding
-from skg.planning.route import Lead, PlannedContour, Way
+from skg.planning.planned import PlannedContour
+from skg.planning.runs import Lead, Run
 
 #: No line of the program is longer, its number included.
 _WIDTH = 72
@@ -88,7 +89,7 @@ def _fillet(edges: tuple[Edge, ...], index: int) -> tuple[XY, float] | None:
     return (corner, arc.radius) if distance(corner, other) < _FILLET_MISS else None
 
 
-def _items(run: Way, fillets: bool) -> Iterator[_Item | Edge]:
+def _items(run: Run, fillets: bool) -> Iterator[_Item | Edge]:
     """Yield the items in the CUT statements of a run, from its first point on, and its curves."""
     edges = run.edges
     goes_back = run.is_closed and not run.out
@@ -174,7 +175,7 @@ def parts_of(route: PlannedContour) -> Iterator[RoutePart]:
             here = None
         parts = [
             *(_into(run.into, run.offset) if run.into else ()),
-            *_items(run, route.has_fillets),
+            *_items(run, route.rung.has_fillets),
             *(_out(run.out) if run.out else ()),
         ]
         for part in parts:
@@ -372,4 +373,6 @@ def describe(route: PlannedContour) -> str:
 def writes_fillets(route: PlannedContour) -> bool:
     """Tell whether an arc between lines of a route is written as a fillet's radius."""
     runs = (run.edges for run in route.runs())
-    return route.has_fillets and any(_fillet(edges, index) is not None for edges in runs for index in range(len(edges)))
+    return route.rung.has_fillets and any(
+        _fillet(edges, index) is not None for edges in runs for index in range(len(edges))
+    )

@@ -3,23 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from contextlib import suppress
-from math import copysign, floor, inf
+from math import floor, inf
 
 from skg.checking.check import Checked
 from skg.checking.gouges import Crossing
 from skg.checking.wire_path import LIMIT, Misfit
 from skg.errors import UserError
-from skg.geometry.contour import Contour
-from skg.geometry.offset import NoRoom, widest, wire_way
+from skg.geometry.offset import NoRoom
 from skg.job.job import MachineSetup
 from skg.messages.finding import Finding, Phrase
-from skg.planning.route import PlannedContour
+from skg.planning.planned import PlannedContour
+from skg.planning.room import tightest
 
 #: Errors of a route (language.md, section 6) that have a sentence of their own.
 _ERRORS = (5, 6, 7, 9, 10)
-#: Of a contour with more edges than this the largest offset that fits is not looked for.
-_MANY = 2000
 
 
 def meaning(error: int) -> Finding:
@@ -43,7 +40,7 @@ def without_tab(routes: Mapping[int, PlannedContour], fits: dict[int, float], ma
 
 def without_room(routes: Mapping[int, PlannedContour], none: dict[int, NoRoom], machine: MachineSetup) -> UserError:
     """Report contours that the wire does not get around: the tightest one."""
-    number, fit = _tightest(routes, none)
+    number, fit = tightest(routes, none)
     route, no_room = routes[number], none[number]
     more = Phrase("more-without-room", count=len(none) - 1) if len(none) > 1 else None
     sentence = {"name": route.name, "why": no_room.why, "more": more, "leave": _or_leave(machine)}
@@ -61,28 +58,6 @@ def _fit(route: PlannedContour, fit: float | None) -> Phrase | None:
     if not more:
         return Phrase("fits-at-most", fit=fit)
     return Phrase("fits-in-passes", fit=fit, last=fit - more) if fit > more else Phrase("fits-no-pass", fit=fit)
-
-
-def _tightest(routes: Mapping[int, PlannedContour], none: dict[int, NoRoom]) -> tuple[int, float | None]:
-    """The contour with the least room of some that the wire does not get around, and how far the wire may be beside
-    it, mm; None when that is not looked for."""
-    tightest: tuple[int, float] | None = None
-    for number, no_room in none.items():
-        if tightest and not tightest[1]:
-            break
-        if no_room.is_crossing:
-            return number, 0.0
-        contour, r = routes[number].contour, routes[number].widest
-        if len(contour.edges) <= _MANY and (tightest is None or not _fits(contour, copysign(tightest[1], r))):
-            tightest = number, widest(contour, r)
-    return tightest or (next(iter(none)), None)
-
-
-def _fits(contour: Contour, r: float) -> bool:
-    """Tell whether the wire gets around a closed contour, R (mm) to the right of it."""
-    with suppress(NoRoom):
-        return bool(wire_way(contour, r))
-    return False
 
 
 def _or_leave(machine: MachineSetup) -> Phrase | None:
@@ -116,12 +91,12 @@ def refuse(checked: Checked, routes: list[PlannedContour], machine: MachineSetup
         raise off_drawing(faults, routes[first], machine)
     for cut in checked.cuts:
         route = routes[cut.route]
-        if route.contour.is_closed and not route.tabs and cut.gap != (0, 0):
+        if route.contour.is_closed and not route.tabs.each and cut.gap != (0, 0):
             (dx, dy), about = cut.gap, {"contour": route.number, "place": route.entry}
             raise UserError(Finding("not-closed", name=route.name, dx=dx, dy=dy, **about))
     for number, place in checked.fallen[:1]:
         route = routes[number]
-        values = {"name": route.name, "tab": route.tab, "aside": abs(route.widest)}
+        values = {"name": route.name, "tab": route.tabs.length, "aside": abs(route.widest)}
         code = "tab-holds-no-part" if route.frees == "part" else "tab-holds-no-slug"
         raise UserError(Finding(code, contour=route.number, place=place, **values))
     spoilt = [

@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from contextlib import suppress
 
 from skg.checking.follow import Stretch
 from skg.checking.wire_path import LIMIT
 from skg.cutting.ladder import CutResult
 from skg.cutting.manner import manners, numbered, stops
 from skg.cutting.refusal import depth
-from skg.geometry.offset import NoRoom, sharpest, uncut, wire_way
-from skg.geometry.plane import XY
 from skg.messages.finding import Finding, Phrase
 from skg.planning import nesting
 from skg.planning.nesting import in_brackets
-from skg.planning.route import PlannedContour, kind_of
+from skg.planning.planned import LeadShape, PlannedContour, Reason, kind_of
+from skg.planning.room import corners
 from skg.planning.walls import thin_walls
 from skg.tape.simulation import duration
 
@@ -40,7 +38,7 @@ def findings(result: CutResult, offset: float = 0.0) -> list[Finding]:
             for skipped in result.left[:_PLACES]
         ),
         *_more(result.left, "more-not-cut"),
-        *nesting.findings((route.turn, route.around) for route in routes),
+        *nesting.findings((route.turn, route.remarks.around) for route in routes),
         *_corners(routes),
         *_crossings(result),
         *_walls(routes),
@@ -118,7 +116,7 @@ def _manners(routes: list[PlannedContour], offset: float) -> Iterator[Finding]:
     free = [
         route.turn
         for route in routes
-        if route.contour.is_closed and len(route.passes) > 1 and not route.tabs and not route.is_opening
+        if route.contour.is_closed and len(route.passes) > 1 and not route.tabs.each and not route.is_opening
     ]
     if free:
         yield Finding("parts-free", count=len(free), contours=in_brackets(free))
@@ -158,51 +156,29 @@ def _sides(routes: list[PlannedContour]) -> Iterator[Finding]:
 def _corners(routes: list[PlannedContour]) -> list[Finding]:
     """Contours that the wire cannot follow everywhere: those that it stays off most first."""
     straight, around, chords, loops, whiskers = [], [], [], [], []
-    off = _in_sharp_ones(routes)
     for route in routes:
         about = {"turn": route.turn, "contour": route.number}
-        for code, kind, trims in (("loops", loops, route.loops), ("whiskers", whiskers, route.whiskers)):
+        for code, kind, trims in (
+            ("loops", loops, route.remarks.loops),
+            ("whiskers", whiskers, route.remarks.whiskers),
+        ):
             if trims:
                 longest = max(trim.length for trim in trims)
                 kind.append(Finding(code, count=len(trims), length=longest, place=trims[0].place, **about))
-        if route.is_cramped:
+        if route.rung.lead is LeadShape.CRAMPED:
             code = "straight-lead" if route.is_square else "straight-lead-aslant"
             straight.append(Finding(code, place=route.entry, **about))
-        if route.is_around:
+        reason = route.rung.wire and route.rung.wire.reason
+        if reason is Reason.TIPS:
             around.append(Finding("around-tips", place=route.entry, **about))
-        if not route.traced or route.is_around:
-            continue
-        if not any(route.passes):
+        elif reason is Reason.CHORDS:
             chords.append(Finding("in-chords", place=route.entry, **about))
-            continue
-        far, place = uncut(route.contour, route.traced[-1], route.passes[-1])
-        if far > LIMIT:
-            off.append((far, place, route))
     narrow = [
         Finding("narrow-corners", turn=route.turn, far=far, contour=route.number, place=place)
-        for far, place, route in sorted(off, key=lambda corner: -corner[0])
+        for far, place, route in sorted(corners(routes), key=lambda corner: -corner.far)
+        if far > LIMIT
     ]
     return [finding for kind in (straight, around, chords, loops, whiskers, narrow) for finding in _first(kind)]
-
-
-def _in_sharp_ones(routes: list[PlannedContour]) -> list[tuple[float, XY, PlannedContour]]:
-    """Distance (mm) of the wire from the sharp inner corners of contours that are cut as they are, the place, and of
-    which contour: the worst first, and those that may be named as measured."""
-    corners = []
-    for route in routes:
-        is_beside = route.contour.is_closed and route.passes and route.passes[-1]
-        if (
-            is_beside
-            and (route.is_around or not route.traced)
-            and (corner := sharpest(route.contour, route.passes[-1]))
-        ):
-            corners.append((*corner, route))
-    corners.sort(key=lambda corner: -corner[0])
-    for number, (_, _, route) in enumerate(corners[:_PLACES]):
-        with suppress(NoRoom):
-            wire = route.traced[-1] if route.traced else wire_way(route.contour, route.passes[-1])
-            corners[number] = *uncut(route.contour, wire, route.passes[-1]), route
-    return corners
 
 
 def _first(kind: list[Finding]) -> list[Finding]:
@@ -217,5 +193,5 @@ def _more(every: Sequence, code: str) -> list[Finding]:
 
 
 def _closing(cuts: list[Stretch], routes: list[PlannedContour]) -> Phrase | None:
-    closed = {cut.route for cut in cuts if routes[cut.route].contour.is_closed and not routes[cut.route].tabs}
+    closed = {cut.route for cut in cuts if routes[cut.route].contour.is_closed and not routes[cut.route].tabs.each}
     return Phrase("closing", count=len(closed)) if closed else None

@@ -7,7 +7,6 @@ switches it off likewise.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 
 from skg.errors import UserError
 from skg.geometry.contour import Edge
@@ -15,7 +14,8 @@ from skg.geometry.offset import as_arcs
 from skg.geometry.piece import Piece
 from skg.geometry.plane import XY
 from skg.messages.finding import Finding
-from skg.planning.route import Lead, PlannedContour, Way
+from skg.planning.planned import PlannedContour, Reason
+from skg.planning.runs import Lead, Run
 from skg.tape.block import micrometres
 from skg.tape.dialect import GcodeDialect
 from skg.tape.gcode import GcodeWriter, Spot, decimal
@@ -62,7 +62,7 @@ class _Cut:
     def __init__(self, writer: GcodeWriter, path: list[Piece], feed: str) -> None:
         self.writer, self.path, self.feed = writer, path, feed
 
-    def run(self, run: Way, hole: Spot, filled: Callable[[str, int], str]) -> None:
+    def run(self, run: Run, hole: Spot, filled: Callable[[str, int], str]) -> None:
         """From a start hole along the contour, and to a start hole."""
         writer, words = self.writer, self.writer.dialect.compensation
         assert words
@@ -96,7 +96,7 @@ class _Cut:
         self.writer.line(_spot(place), self.feed)
 
 
-def _ways(run: Way) -> tuple[tuple[Edge, ...], tuple[Edge, ...]]:
+def _ways(run: Run) -> tuple[tuple[Edge, ...], tuple[Edge, ...]]:
     """The arcs that lead to the contour and from it."""
 
     def arc(lead: Lead | None, is_in: bool) -> tuple[Edge, ...]:
@@ -107,16 +107,17 @@ def _ways(run: Way) -> tuple[tuple[Edge, ...], tuple[Edge, ...]]:
 
 def _as_drawn(route: PlannedContour) -> PlannedContour:
     """A route along its contour."""
-    if not route.traced:
+    wire = route.rung.wire
+    if not wire:
         return route
-    if any(route.passes) and not route.is_around:
+    if wire.reason is Reason.EDGES:
         raise UserError(
             Finding("edges-left-out", name=route.name, contour=route.number, place=route.entry),
         )
-    return replace(route, traced=(), is_around=False)
+    return route.on_rung(wire=None)
 
 
-def _beside(run: Way) -> int:
+def _beside(run: Run) -> int:
     return micrometres(abs(run.offset))
 
 

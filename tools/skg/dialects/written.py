@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from skg.dialects.compensated import compensated
 from skg.dialects.verify import refuse_other_path
 from skg.geometry.piece import Piece
-from skg.planning.route import PlannedContour
+from skg.planning.planned import PlannedContour
 from skg.tape import gcode
 from skg.tape.block import Tape, micrometres
 from skg.tape.dialect import GcodeDialect

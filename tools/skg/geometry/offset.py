@@ -36,7 +36,7 @@ _UNEVEN = 5e-4
 #: Directions (radians) that differ by less run on without a corner.
 _SMOOTH = 1e-3
 #: A tip is a spike where its parallels meet farther than this from it, in R.
-_SPIKE = 10.0
+SPIKE = 10.0
 #: A closed way begins within an edge, this part of it from its ends where it is short.
 _INSIDE = 0.2
 
@@ -170,7 +170,7 @@ def wire_way(contour: Contour, r: float) -> tuple[Edge, ...]:
     raise NoRoom(contour.edges[0].start, _NONE)
 
 
-def has_spike(contour: Contour, r: float, far: float = _SPIKE) -> bool:
+def has_spike(contour: Contour, r: float, far: float = SPIKE) -> bool:
     """Tell whether the wire, R (mm) to the right of a closed contour, would run past a tip of it by more than `far`
     R."""
     most, sense = 2 * acos(1 / far), 1 if r > 0 else -1

@@ -26,7 +26,7 @@ from skg.messages.finding import Phrase
 from skg.messages.render import speech, text
 from skg.pictures.page import as_it_stands, installed, save
 from skg.pictures.plot import FEW, outlines
-from skg.planning.route import PlannedContour, kind_of
+from skg.planning.planned import PlannedContour, kind_of
 from skg.tape.layout import Laid
 from skg.tape.simulation import duration
 from skg.wording import short, shown, visible

@@ -27,7 +27,7 @@ from skg.job.wanted import Partial, Wanted
 from skg.messages.finding import Finding, Phrase
 from skg.planning.nesting import Nesting
 from skg.planning.plan import plan_nested
-from skg.planning.route import PlannedContour
+from skg.planning.planned import PlannedContour
 from skg.reading.account import Account
 from skg.reading.read import Reading, read
 from skg.reading.selection import SMALL, UNWANTED, WITHIN
@@ -152,7 +152,7 @@ def _beside_file(result: CutResult, drawn: DrawnJob, account: Account) -> CutRes
     these differ and no line of the report names the place, a `UserError`."""
     named = [Named(mend.place, mend.size) for mend in account.mends]
     for route in result.routes:
-        named += [Named(trim.place, trim.length) for trim in (*route.loops, *route.whiskers)]
+        named += [Named(trim.place, trim.length) for trim in (*route.remarks.loops, *route.remarks.whiskers)]
     off, place = off_drawn([route.contour for route in result.routes], drawn.reading.nominal, account.whole, named)
     if off > NEAR:
         raise UserError(Finding("off-the-file", place=place, off=1000 * off).within(drawn.name))
@@ -173,7 +173,7 @@ def _findings(job: Job, drawn: DrawnJob, account: Account, result: CutResult) ->
         (any(want.tab for want in others), "part"),
         (any(want.slug_tab for want in others), "slug"),
     ):
-        if is_asked and not any(route.tabs for route in result.routes if route.frees == frees):
+        if is_asked and not any(route.tabs.each for route in result.routes if route.frees == frees):
             report.append(Finding(f"no-{frees}-has-tab"))
     if any(overlap.kind != "drawn twice" for overlap in account.overlaps):
         from skg.checking import split_parts

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from skg.geometry.contour import Contour, Edge
 from skg.geometry.plane import XY, distance, turn
-from skg.planning.route import split_curve
+from skg.planning.runs import split_curve
 
 #: Most edges of a contour that are tried for a start hole with room around it.
 _TRIED = 8

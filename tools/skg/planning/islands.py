@@ -8,7 +8,7 @@ import shapely
 
 from skg.geometry.areas import areas_of
 from skg.planning.nesting import places_in
-from skg.planning.route import PlannedContour
+from skg.planning.planned import PlannedContour
 
 
 def islands(routes: Mapping[int, PlannedContour], openings: Collection[int]) -> dict[int, int]:

@@ -28,9 +28,10 @@ from skg.planning.entries import (
     nearest_entry,
 )
 from skg.planning.loops import tidied
-from skg.planning.nesting import Nesting
+from skg.planning.nesting import Around, Nesting
 from skg.planning.order import nearest_order
-from skg.planning.route import PlannedContour, Tab, arc_beside, chain_from, split_at_end
+from skg.planning.planned import LeadShape, PlannedContour, Remarks, Rung, Tab, Tabs
+from skg.planning.runs import arc_beside, chain_from, split_at_end
 
 #: A start hole has room enough when nothing is nearer than this part of the lead.
 _ENOUGH = 0.5
@@ -60,7 +61,7 @@ class _Choice:
         if place := _entry_of(made, wanted):
             entries = iter([place])
         else:
-            entries = entries_of(made.contour, made.tab, wanted.widest)
+            entries = entries_of(made.contour, made.tabs.length, wanted.widest)
         self.reach = wanted.lead + abs(made.widest)
         self.entries = entries
         self.entry = next(entries, None)
@@ -80,8 +81,7 @@ class _Choice:
         """The contour as it is entered best."""
         entry, part, start, tab_hole = self.best
         contour = entry.begun(self.made.contour)
-        tabs = (Tab(inf, tab_hole, start),) if self.made.tab else ()
-        return replace(self.made, contour=contour, start=start, part=part, tabs=tabs, room=self.room)
+        return replace(_begun(self.made, contour, part, start, tab_hole), room=self.room)
 
 
 class _Columns(NamedTuple):
@@ -102,9 +102,9 @@ class _Columns(NamedTuple):
         flags = [
             (
                 choice.is_right,
-                choice.made.is_arc and not choice.made.tab,
-                choice.made.tab > 0,
-                not (choice.is_outside or choice.made.is_arc or choice.made.tab or choice.wanted.entry),
+                choice.made.is_arc and not choice.made.tabs.length,
+                choice.made.tabs.length > 0,
+                not (choice.is_outside or choice.made.is_arc or choice.made.tabs.length or choice.wanted.entry),
             )
             for choice in choices
         ]
@@ -130,10 +130,9 @@ class _Planner:
             depth = self.nesting.depths[number]
             contour, sign = _oriented(self.nesting.contours[number], want, depth)
             passes = tuple(sign * (want.offset + more) for more in want.passes)
-            offset = passes[-1]
             if not contour.is_closed:
                 start = start or contour.edges[0].start
-                done[number] = PlannedContour(contour, start, 0.0, offset, depth, passes[-1:], number=number)
+                done[number] = PlannedContour(contour, start, 0.0, passes[-1:], depth, number=number)
                 continue
             is_ccw = contour.area > 0
             is_outside = is_ccw == (sign > 0) if sign else depth % 2 == 0
@@ -146,23 +145,19 @@ class _Planner:
             tab = 0.0 if is_short else tab
             arc = arc_beside(tab, want.widest)
             is_cramped = want.is_arc and tab > 0 and arc < max(_LEAST_ARC, _ROOMY * want.widest)
-            tab_passes = (want.passes[0], *want.tab_passes)
+            tab_passes = tuple(sign * (want.offset + more) for more in (want.passes[0], *want.tab_passes))
+            arc_or_line = LeadShape.ARC if want.is_arc else LeadShape.STRAIGHT
             made = PlannedContour(
                 contour,
                 start or (0.0, 0.0),
                 0.0,
-                offset,
-                depth,
                 passes,
-                tab,
-                tab_passes=tuple(sign * (want.offset + more) for more in tab_passes) if tab else (),
-                overlap=want.overlap,
-                is_arc=want.is_arc and not is_cramped,
-                is_cramped=is_cramped,
-                number=number,
-                fits=fits if is_short else None,
-                loops=loops,
-                whiskers=whiskers,
+                depth,
+                Tabs(tab, tab_passes) if tab else Tabs(),
+                want.overlap,
+                number,
+                rung=Rung(LeadShape.CRAMPED if is_cramped else arc_or_line),
+                remarks=Remarks(loops, whiskers, longest_tab=fits if is_short else None),
             )
             if tab:
                 _refuse_tabs(made, want)
@@ -182,7 +177,7 @@ class _Planner:
             if choice.made.is_arc and choice.room < _ROOMY * choice.wanted.widest
         ]
         for index in cramped:
-            made = replace(choices[index].made, is_arc=False, is_cramped=True)
+            made = choices[index].made.on_rung(lead=LeadShape.CRAMPED)
             choices[index] = _Choice(made, choices[index].wanted, choices[index].is_outside)
         self._choose([choices[index] for index in cramped])
         for choice in choices:
@@ -191,17 +186,17 @@ class _Planner:
 
     def _bridged(self, made: PlannedContour, wanted: Wanted, is_right: bool) -> PlannedContour:
         """The contour with all of its tabs: so far it has the one before its entry."""
-        if made.tabs and _count(wanted.tabs) > 1:
+        if made.tabs.each and _count(wanted.tabs) > 1:
             tabs = wanted.tabs if isinstance(wanted.tabs, int) else _first_at(wanted.tabs, made.entry)
-            ends = ends_of_tabs(made.chain, made.tab, tabs)
-            made = replace(made, tabs=(*(Tab(end, made.start, made.start) for end in ends), *made.tabs))
+            ends = ends_of_tabs(made.chain, made.tabs.length, tabs)
+            made = _with_tabs(made, *(Tab(end, made.start, made.start) for end in ends), *made.tabs.each)
             _refuse_crowded(made, ends)
             before, behind = ([span[side][-1] for span in made.spans[:-1]] for side in (0, 1))
             right, widest = np.full(len(ends), is_right), np.full(len(ends), abs(made.widest))
             deep = np.minimum(distance(made.start, made.entry), _deepest(before, *_at_ends(behind), right, widest))
             holes = (self._tab_holes(edges, right, deep, widest).tolist() for edges in (before, behind))
             tabs = (Tab(end, tuple(x), tuple(y)) for end, x, y in zip(ends, *holes, strict=True))
-            made = replace(made, tabs=(*tabs, made.tabs[-1]))
+            made = _with_tabs(made, *tabs, made.tabs.each[-1])
         if made.overlap:
             _refuse_overlap(made)
         return made
@@ -224,14 +219,18 @@ class _Planner:
         """Enter a contour from its start hole at the place that is asked for, or where it is nearest to the hole."""
         entry = _entry_of(made, wanted) or nearest_entry(made.contour, made.start, made.widest)
         contour, part = entry.begun(made.contour), entry.part
-        if not made.tab:
+        if not made.tabs.length:
             return replace(made, contour=contour, part=part)
         contour, part = self._tab_before(contour, part, made)
         made = replace(made, contour=contour, part=part)
-        end, right, widest = _before_tab(contour, part, made.tab), np.array([is_right]), np.array([abs(made.widest)])
+        end, right, widest = (
+            _before_tab(contour, part, made.tabs.length),
+            np.array([is_right]),
+            np.array([abs(made.widest)]),
+        )
         deep = _deepest([end], *_at_ends(made.chain[-1:]), right, widest)
         ((x, y),) = self._tab_holes([end], right, np.minimum(deep, distance(made.start, made.entry)), widest).tolist()
-        return replace(made, tabs=(Tab(inf, (x, y), made.start),))
+        return _with_tabs(made, Tab(inf, (x, y), made.start))
 
     def _choose(self, choices: Sequence[_Choice]) -> None:
         """Choose the entry with the most room: the first one with enough, else the best one."""
@@ -284,7 +283,7 @@ class _Planner:
         tabs = np.flatnonzero(has_tab)
         if len(tabs):
             begun = [(choices[index].made, choices[index].entry, float(parts[index])) for index in tabs.tolist()]
-            ends = [_before_tab(entry.begun(made.contour), part, made.tab) for made, entry, part in begun]
+            ends = [_before_tab(entry.begun(made.contour), part, made.tabs.length) for made, entry, part in begun]
             deep = _deepest(ends, places[tabs], bearings[tabs], is_right[tabs], widest[tabs])
             part = np.minimum(1.0, deep / far[tabs])
             starts[tabs] = places[tabs] + part[:, None] * (starts[tabs] - places[tabs])
@@ -307,7 +306,7 @@ class _Planner:
         return self._holes(places, bearings, rows_of(edges), is_right, reach, widest, no_arcs)
 
     def _tab_before(self, contour: Contour, part: float, made: PlannedContour) -> tuple[Contour, float]:
-        edge, tab = contour.edges[0], made.tab
+        edge, tab = contour.edges[0], made.tabs.length
         aside = tab / edge.length
         if edge.is_circle:
             return contour, part
@@ -393,13 +392,27 @@ def _at_ends(edges: Sequence[Edge]) -> tuple[Floats, Floats]:
 def _deepest(before: Sequence[Edge], places: Floats, bearings: Floats, is_right: Flags, widest: Floats) -> Floats:
     """The length of leads square to the contour on both sides of tabs that leaves half of these between them, mm: where
     some edges end, and at places that are passed in some directions."""
-    froms, ways = _at_ends(before)
+    froms, bearings_before = _at_ends(before)
     aside = np.where(is_right, -pi / 2, pi / 2)
     tabs = places - froms
     lengths = np.maximum(hypots(*tabs.T), 1e-9)
-    closing = -((headings(bearings + aside) - headings(ways + aside)) * tabs).sum(1) / lengths
+    closing = -((headings(bearings + aside) - headings(bearings_before + aside)) * tabs).sum(1) / lengths
     room = np.maximum(lengths / 2 - widest, 1e-3)
     return np.where(closing > 1e-9, room / np.maximum(closing, 1e-9), inf)
+
+
+def _begun(made: PlannedContour, contour: Contour, part: float, start: XY, tab_hole: XY) -> PlannedContour:
+    """A contour that is entered at `part` of its first edge, with the tab before that place if it is to have any."""
+    made = replace(made, contour=contour, start=start, part=part)
+    return _with_tabs(made, Tab(inf, tab_hole, start)) if made.tabs.length else made
+
+
+def _with_tabs(made: PlannedContour, *tabs: Tab) -> PlannedContour:
+    return replace(made, tabs=replace(made.tabs, each=tabs))
+
+
+def _lying_in(made: PlannedContour, around: Around) -> PlannedContour:
+    return replace(made, remarks=replace(made.remarks, around=around))
 
 
 def _count(tabs: int | Sequence[XY]) -> int:
@@ -417,11 +430,11 @@ def _entry_of(made: PlannedContour, wanted: Wanted) -> EntryAt | None:
     """The entry that is asked for: by its place, or by those of tabs."""
     if wanted.entry:
         return nearest_entry(made.contour, wanted.entry, wanted.widest, with_curves=True)
-    if made.tab and not isinstance(wanted.tabs, int):
+    if made.tabs.length and not isinstance(wanted.tabs, int):
         first = (
             wanted.tabs[0] if wanted.start is None else min(wanted.tabs, key=lambda place: distance(place, made.start))
         )
-        return entry_behind(made.contour, first, made.tab, wanted.widest)
+        return entry_behind(made.contour, first, made.tabs.length, wanted.widest)
     return None
 
 
@@ -434,7 +447,7 @@ def _refusal(code: str, made: PlannedContour, **values: object) -> UserError:
 def _refuse_tabs(made: PlannedContour, wanted: Wanted) -> None:
     """Refuse cuts of a tab that leave more than the first pass or less than the last, and an entry beside places."""
     least, most = abs(made.passes[-1]), abs(made.passes[0])
-    if abs(made.tab_passes[-1]) < least - _NEAR or any(abs(r) > most + _NEAR for r in made.tab_passes):
+    if abs(made.tabs.passes[-1]) < least - _NEAR or any(abs(r) > most + _NEAR for r in made.tabs.passes):
         raise _refusal("tab-passes-beyond", made, first=wanted.passes[0], last=wanted.passes[-1])
     if wanted.entry and not isinstance(wanted.tabs, int):
         raise _refusal("entry-and-tabs", made)
@@ -443,13 +456,13 @@ def _refuse_tabs(made: PlannedContour, wanted: Wanted) -> None:
 def _refuse_crowded(made: PlannedContour, ends: Sequence[float]) -> None:
     """Refuse tabs between which there is less than the length of one."""
     total = sum(edge.length for edge in made.chain)
-    if any(after - before < 2 * made.tab - _NEAR for before, after in pairwise([0.0, *ends, total])):
-        raise _refusal("tabs-crowded", made, tab=made.tab)
+    if any(after - before < 2 * made.tabs.length - _NEAR for before, after in pairwise([0.0, *ends, total])):
+        raise _refusal("tabs-crowded", made, tab=made.tabs.length)
 
 
 def _refuse_overlap(made: PlannedContour) -> None:
     """Refuse an overlap that goes over half of a cut."""
-    spans = [before for before, _ in made.spans] if made.tabs else [made.chain]
+    spans = [before for before, _ in made.spans] if made.tabs.each else [made.chain]
     shortest = min(sum(edge.length for edge in edges) for edges in spans)
     if made.overlap > shortest / 2:
         raise _refusal("overlap-too-long", made, overlap=made.overlap, cut=shortest)
@@ -492,7 +505,7 @@ def plan_nested(
     for route in _Planner(nesting).plan(new):
         is_auto = wanted[route.number].side == "auto"
         around = nesting.around.get(route.number) if is_auto else None
-        before[route.number] = new[route.number], replace(route, around=around) if around else route
+        before[route.number] = new[route.number], _lying_in(route, around) if around else route
     ordered = _as_wanted(_ordered([before[number][1] for number in asked]), wanted)
     for turn, route in enumerate(ordered, 1):
         if route.turn != turn:

@@ -10,7 +10,7 @@ import shapely
 
 from skg.geometry.contour import Edge
 from skg.geometry.plane import XY
-from skg.planning.route import PlannedContour
+from skg.planning.planned import PlannedContour
 
 #: Chords leave a contour by no more when a wall is measured, mm; and when walls are looked for.
 _FINE, _COARSE = 0.0002, 0.1

@@ -29,7 +29,7 @@ from skg.pipeline.steps import (
     written,
 )
 from skg.planning.plan import Asked, plan_nested
-from skg.planning.route import PlannedContour
+from skg.planning.planned import PlannedContour
 from skg.ui import shown
 from skg.ui.json_text import encoded, told
 

@@ -25,7 +25,8 @@ from skg.messages.render import Medium, Speech, text
 from skg.messages.severity import Severity
 from skg.pipeline.steps import CutDrawing, DrawnJob
 from skg.planning.nesting import findings
-from skg.planning.route import Lead, PlannedContour, Way
+from skg.planning.planned import PlannedContour
+from skg.planning.runs import Lead, Run
 from skg.reading.account import Account
 from skg.ui.json_text import encoded, facts, in_json, said, told
 from skg.wording import visible
@@ -173,7 +174,7 @@ class Plans:
         self._told = contours
         data = {
             "order": [route.number for route in routes],
-            "said": [line(entry) for entry in findings((route.turn, route.around) for route in routes)],
+            "said": [line(entry) for entry in findings((route.turn, route.remarks.around) for route in routes)],
             "error": told(errors[0]) if errors else None,
         }
         whole, part = (
@@ -208,7 +209,7 @@ def planned(route: PlannedContour) -> dict[str, Any]:
     edge = route.chain[0]
     tabs = [
         [place(edges[0].start), place(edges[-1].end), place(tab.before), place(tab.behind)]
-        for (_, edges), tab in zip(route.spans, route.tabs, strict=True)
+        for (_, edges), tab in zip(route.spans, route.tabs.each, strict=True)
     ]
     return {
         "cut": True,
@@ -226,14 +227,14 @@ def planned(route: PlannedContour) -> dict[str, Any]:
 def ways(route: PlannedContour) -> list[list[list[Any]]]:
     """The ways of the wire's middle along a contour, with those from its start holes and to them; none where the wire
     does not get around it."""
-    if route.contour.is_closed and any(route.passes) and not route.traced:
+    if route.contour.is_closed and any(route.passes) and not route.rung.wire:
         with suppress(NoRoom):
-            return ways(route.with_wire_ways())
+            return ways(route.along_wire())
         return []
     return [edges(_wire(run, route)) for run in route.runs()]
 
 
-def _wire(run: Way, route: PlannedContour) -> Iterator[Edge]:
+def _wire(run: Run, route: PlannedContour) -> Iterator[Edge]:
     """The wire's middle along a way."""
     along = run.edges if not run.offset else _beside(run)
     if not route.contour.is_closed:
@@ -259,7 +260,7 @@ def _lead(lead: Lead | None, hole: XY, entry: XY, is_in: bool) -> Iterator[Edge]
     yield from [*straight, *arcs] if is_in else [*arcs, *straight]
 
 
-def _beside(run: Way) -> list[Edge]:
+def _beside(run: Run) -> list[Edge]:
     """The wire's middle beside an open contour, as chords."""
     points = [point for edge in run.edges for point in edge.points()]
     line = shapely.offset_curve(shapely.LineString(points), -run.offset, join_style="mitre")

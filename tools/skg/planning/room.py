@@ -1,0 +1,78 @@
+"""Room for the wire beside planned contours: the tightest of some, and the inner corners that it does not come into."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from math import copysign
+from typing import NamedTuple
+
+from skg.geometry.contour import Contour
+from skg.geometry.offset import NoRoom, sharpest, uncut, widest, wire_way
+from skg.geometry.plane import XY
+from skg.planning.planned import PlannedContour, Reason
+
+#: Of a contour with more edges than this the largest offset that fits is not looked for.
+_MANY = 2000
+#: Sharp corners that are measured exactly: the worst ones.
+_MEASURED = 5
+
+
+def tightest(routes: Mapping[int, PlannedContour], none: Mapping[int, NoRoom]) -> tuple[int, float | None]:
+    """The contour with the least room of some that the wire does not get around, and how far the wire may be beside
+    it, mm; None when that is not looked for."""
+    found: tuple[int, float] | None = None
+    for number, no_room in none.items():
+        if found and not found[1]:
+            break
+        if no_room.is_crossing:
+            return number, 0.0
+        contour, r = routes[number].contour, routes[number].widest
+        if len(contour.edges) <= _MANY and (found is None or not _fits(contour, copysign(found[1], r))):
+            found = number, widest(contour, r)
+    return found or (next(iter(none)), None)
+
+
+def _fits(contour: Contour, r: float) -> bool:
+    """Tell whether the wire gets around a closed contour, R (mm) to the right of it."""
+    with suppress(NoRoom):
+        return bool(wire_way(contour, r))
+    return False
+
+
+class Corner(NamedTuple):
+    """The inner corner of a contour that the last pass of the wire stays farthest off, by more than R: by how much
+    (mm), and where."""
+
+    far: float
+    place: XY
+    route: PlannedContour
+
+
+def corners(routes: Sequence[PlannedContour]) -> list[Corner]:
+    """The corner of each contour that has one, the worst of the sharp ones first; those that are only worked out from
+    the angle stand behind `_MEASURED` worse ones."""
+    beside = [route for route in routes if route.contour.is_closed and route.offset]
+    return [*_sharp([route for route in beside if not _leaves_edges_out(route)]), *_passed(beside)]
+
+
+def _leaves_edges_out(route: PlannedContour) -> bool:
+    return bool(route.rung.wire and route.rung.wire.reason is Reason.EDGES)
+
+
+def _sharp(routes: Sequence[PlannedContour]) -> list[Corner]:
+    """Corners of contours that are cut as they are."""
+    found = [Corner(*corner, route) for route in routes if (corner := sharpest(route.contour, route.offset))]
+    found.sort(key=lambda corner: -corner.far)
+    for number, (_, _, route) in enumerate(found[:_MEASURED]):
+        with suppress(NoRoom):
+            wire = route.rung.wire
+            path = wire.paths[-1] if wire else wire_way(route.contour, route.offset)
+            found[number] = Corner(*uncut(route.contour, path, route.offset), route)
+    return found
+
+
+def _passed(routes: Sequence[PlannedContour]) -> list[Corner]:
+    """Corners of contours that the wire leaves edges out of."""
+    pairs = ((route, route.rung.wire) for route in routes if _leaves_edges_out(route))
+    return [Corner(*uncut(route.contour, wire.paths[-1], route.offset), route) for route, wire in pairs if wire]
