@@ -31,6 +31,9 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 # The messages are those of the English catalogue, whatever this machine speaks.
 os.environ["LC_ALL"] = "C.UTF-8"
 
+# The setups of whoever runs the tests are not theirs.
+os.environ["XDG_CONFIG_HOME"] = str(ROOT / "build" / "config")
+
 # Thousands of tests are alive to the end: to look through them for garbage each time takes a tenth of all.
 gc.set_threshold(100_000)
 

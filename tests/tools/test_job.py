@@ -19,11 +19,12 @@ from toolhelp import Run
 
 from skg.errors import UserError
 from skg.job.file import decoded, dump, encoded, from_data, load, to_data
-from skg.job.job import INTO, KINDS, ROMS, SMALL, Chosen, Job, MachineSetup
+from skg.job.job import INTO, KINDS, ROMS, SMALL, Chosen, Job, MachineSetup, TapeForm
 from skg.job.read_options import OPEN, UNITS, Wishes
 from skg.job.wanted import LEAD_SHAPES, SIDES, Partial, Wanted
 from skg.messages.render import text
 from skg.pipeline.steps import choose, cut_drawing, open_drawing, plan_drawing, wanted_of, written
+from skg.tape.styles import STYLES
 
 DOCS = ROOT / "docs"
 
@@ -94,6 +95,7 @@ JOBS = st.builds(
         encoding=maybe(WORDS),
     ),
     machine=MACHINES,
+    tape=st.builds(TapeForm, st.sampled_from(sorted(STYLES)), st.booleans()),
     starts=st.lists(PLACES, max_size=3).map(tuple),
     default=st.builds(Partial, **OFTEN),
     layers=st.dictionaries(NAMES, st.builds(Partial, **LAYER), max_size=3).filter(
@@ -231,7 +233,7 @@ MORE = [
     "--start 12,15 --start 30,15 --wire 0.25 --feed 3.5 --ram 16",
     "--layer PART --units mm --tolerance 0.01 --fit-tolerance 0.001 --offset 0.3 --small leave",
     "--offset 0.1 --tab 2 --slug-tab 1 --tabs 2 --passes 0.1,0.05 --tab-passes 0.06 --overlap 0.3 --lead 1",
-    "--rom standard --offset 0.1 --tab 2 --passes 0.1,0.05 --material '1.2379' --thickness '20 mm'",
+    "--rom standard --offset 0.1 --tab 2 --passes 0.1,0.05 --material '1.2379' --thickness '20 mm' --style padded",
 ]
 
 

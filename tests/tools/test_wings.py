@@ -26,7 +26,7 @@ ALLOWED = {
     "rivals": {COMMON},
     "native": {COMMON},
     "geometry": {COMMON},
-    "job": {COMMON, "geometry"},
+    "job": {COMMON, "geometry", "tape"},
     "tape": {COMMON, "native", "geometry"},
     "machine": {COMMON, "native", "tape"},
     "reading": {COMMON, "geometry", "job"},

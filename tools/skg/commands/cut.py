@@ -5,8 +5,7 @@ from __future__ import annotations
 import codecs
 import json
 import sys
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Callable, Iterable
 from os.path import realpath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,6 +18,7 @@ from skg.commands.options import (
     Millimetres,
     RomName,
     feed_option,
+    kept_setups,
     machine_option,
     numbers_in,
     offset_option,
@@ -32,15 +32,16 @@ from skg.files import read_bytes, write_bytes
 from skg.geometry.plane import XY
 from skg.job import file as job_files
 from skg.job import values
-from skg.job.job import INTO, ROMS, SMALL, Job, MachineSetup
+from skg.job.job import INTO, ROMS, SMALL, Job
 from skg.job.read_options import OPEN, START, UNITS
 from skg.job.values import MOST_OFFSET
-from skg.job.wanted import LEAD, LEAD_SHAPES, SIDES, Partial, Wanted
+from skg.job.wanted import LEAD, LEAD_SHAPES, SIDES
 from skg.messages.finding import Finding, Phrase
 from skg.messages.render import Medium, Speech, data, line, speech
 from skg.reading.read import Wishes, layer_lines
 from skg.tape.dialect import GcodeDialect
 from skg.tape.gcode import is_gcode
+from skg.tape.styles import STYLES, to_style
 from skg.terminal import remark, show, tell
 
 if TYPE_CHECKING:
@@ -86,7 +87,18 @@ class Encoding(click.ParamType):
 
 
 #: Options allowed beside a job file: files to write, and how much to print.
-_BESIDE_A_JOB = ("file", "output", "dialect", "list_layers", "program", "sheet", "save_job", "quiet", "in_json")
+_BESIDE_A_JOB = (
+    "file",
+    "output",
+    "dialect",
+    "list_layers",
+    "program",
+    "sheet",
+    "save_job",
+    "setup",
+    "quiet",
+    "in_json",
+)
 
 
 @click.command(name="cut")
@@ -216,6 +228,14 @@ _BESIDE_A_JOB = ("file", "output", "dialect", "list_layers", "program", "sheet",
 @click.option("--material", metavar="TEXT", type=WORDS, help="Material of the stock, for the setup sheet.")
 @click.option("--thickness", metavar="TEXT", type=WORDS, help="Thickness of the stock, for the setup sheet.")
 @click.option(
+    "--style",
+    type=click.Choice(list(STYLES)),
+    default="punch",
+    help="Style of the tape's blocks, as `skg tape` has them.",
+)
+@click.option("--short-name", is_flag=True, help="Refuse a tape's name that is no .3b of at most eight letters.")
+@click.option("--setup", metavar="NAME", help="Take what is not given from a setup that is kept (docs/tools.md).")
+@click.option(
     "--save-job", metavar="FILE", type=click.Path(), help="Also write the settings, as a job file: .job.toml."
 )
 @machine_option(
@@ -231,6 +251,7 @@ def command(
     list_layers: bool,
     program: str | None,
     sheet: str | None,
+    setup: str | None,
     save_job: str | None,
     dialect: GcodeDialect | None,
     quiet: bool,
@@ -246,7 +267,7 @@ def command(
     """
     way = Speech(speech.language, Medium.JOB if is_job_file(file) else Medium.COMMAND)
     try:
-        report = _cut(context, file, output, list_layers, program, sheet, save_job, dialect, **options)
+        report = _cut(context, file, output, list_layers, program, sheet, setup, save_job, dialect, **options)
     except UserError as error:
         if not in_json:
             error.way = way
@@ -285,6 +306,7 @@ def _cut(
     list_layers: bool,
     program: str | None,
     sheet: str | None,
+    setup: str | None,
     save_job: str | None,
     dialect: GcodeDialect | None,
     **options: Any,  # noqa: ANN401
@@ -293,11 +315,12 @@ def _cut(
     were listed."""
     from skg.pipeline.steps import cut_drawing, open_drawing, written
 
+    kept = kept_setups().kept(setup) if setup is not None else {}
     if is_job_file(file):
-        job, path = _loaded(file, context)
+        job, path = _loaded(file, context, kept)
         refuse_onto([name for name in (output, program, sheet, save_job) if name], [path])
     else:
-        job, path = _asked(file, **options), file
+        job, path = _asked(context, file, kept, **options), file
     if list_layers:
         layers, notes = layer_lines(read_bytes(path), path, Wishes(encoding=job.read.encoding))
         for layer in layers:
@@ -308,11 +331,15 @@ def _cut(
     form = picture_format(sheet, None) if sheet else ""
     if is_gcode(output) and not dialect:
         raise UserError(Finding("tape-named-gcode").within(output))
+    if not dialect and output != "-":
+        job.tape.refuse_name(Path(output).name)
+    elif dialect and (given := _given(context, job_files.TAPE)):
+        raise UserError(Finding("tape-of-machine", option=f"--{given[0].replace('_', '-')}"))
     if save_job:
         _refuse_elsewhere(save_job, path)
     drawn = open_drawing(job, read_bytes(path), path)
     cut = cut_drawing(job, drawn)
-    made = cut.result.data if dialect is None else _for_machine(cut.result, dialect, output)
+    made = _for_machine(cut.result, dialect, output) if dialect else to_style(cut.result.tape.items, job.tape.style)
     if program:
         write_bytes(program, cut.result.program.encode("ascii"))
     if sheet:
@@ -324,7 +351,8 @@ def _cut(
     if save_job:
         write_bytes(save_job, job_files.encoded(written(job, drawn)))
     write_bytes(output, made)  # last: no tape where something else could not be written
-    return cut, unmarked(output, cut.result.tape, job.machine.rom) if dialect is None else []
+    more = unmarked(output, cut.result.tape, job.machine.rom) if dialect is None else []
+    return cut, [*_used(setup, kept, job), *more] if setup is not None else more
 
 
 def _for_machine(result: CutResult, dialect: GcodeDialect, output: str) -> bytes:
@@ -340,29 +368,38 @@ def is_job_file(name: str) -> bool:
     return name.lower().endswith(".toml")
 
 
-def _asked(file: str, starts: tuple[XY, ...], **options: Any) -> Job:  # noqa: ANN401 (as click has them)
-    """The job that the options ask for: they are named as the fields of its parts."""
-    job = Job("standard input" if file == "-" else Path(file).name, starts=starts)
-    machine = replace(job.machine, **_said(options, job.machine))
-    usual = Wanted()
-    wanted = {name: value for name, value in _said(options, usual).items() if value != getattr(usual, name)}
-    wanted.pop("offset", None)  # the machine's
-    read = replace(job.read, **_said(options, job.read))
-    return replace(job, read=read, machine=machine, default=Partial(**wanted))
+def _given(context: click.Context, names: Iterable[str]) -> list[str]:
+    """The options, by their names as fields, that stand on the command line."""
+    return [name for name in names if context.get_parameter_source(name) is ParameterSource.COMMANDLINE]
 
 
-def _said(options: dict[str, Any], part: Wishes | MachineSetup | Wanted) -> dict[str, Any]:
-    """The options that are given, or have a default, for a part of the job."""
-    return {name: options[name] for name in vars(part) if options.get(name) is not None}
+def _asked(context: click.Context, file: str, kept: job_files.Tables, starts: tuple[XY, ...], **options: Any) -> Job:  # noqa: ANN401 (as click has them)
+    """The job that the options ask for: they are named as the fields of its parts. `kept`: a setup's tables."""
+    given = {
+        table: {name: options[name] for name in _given(context, options) if name in keys}
+        for table, keys in job_files.TABLES.items()
+    }
+    # (the wire's distance is the machine's)
+    tables = job_files.over(given, kept)
+    return Job("standard input" if file == "-" else Path(file).name, starts=starts, **job_files.made(tables))
 
 
-def _loaded(file: str, context: click.Context) -> tuple[Job, str]:
+def _used(name: str, kept: job_files.Tables, job: Job) -> list[Finding]:
+    """The setup's name, with what it has set."""
+    parts = {table: vars(getattr(job, table)) for table in kept}
+    used = job_files.pairs(
+        {key: value for table, keys in kept.items() for key, value in keys.items() if parts[table][key] == value}
+    )
+    return [Finding("setup-used", name=name, settings=tuple(used) or Phrase("setup-beaten"))]
+
+
+def _loaded(file: str, context: click.Context, kept: job_files.Tables) -> tuple[Job, str]:
     """The job of a file, and where its drawing is; an option beside it that says what is wanted is a `UserError`."""
     for parameter in context.command.params:
         is_given = context.get_parameter_source(parameter.name or "") is ParameterSource.COMMANDLINE
         if is_given and parameter.name not in _BESIDE_A_JOB:
             raise UserError(Finding("option-in-job", option=parameter.opts[0]).within(file))
-    job = job_files.decoded(read_bytes(file), file)
+    job = job_files.decoded(read_bytes(file), file, kept)
     path = Path(file).parent / job.drawing
     if not path.is_file():
         raise UserError(Finding("drawing-not-there", drawing=job.drawing).within(file))

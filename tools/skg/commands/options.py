@@ -11,6 +11,7 @@ import click
 
 from skg.errors import UserError
 from skg.files import is_same_file
+from skg.job.setups import Setups
 from skg.job.values import LEAST_FEED, MOST_OFFSET
 from skg.messages.finding import Finding, Phrase
 from skg.tape.block import MAX_DIGITS, Tape
@@ -171,6 +172,11 @@ def skg80_option(function: Callable) -> Callable:
         help="Emulator that runs programs, such as build/skg80, or `reference` for the reference "
         "interpreter. Default: the board with the standard ROM, as in `skg run`.",
     )(function)
+
+
+def kept_setups() -> Setups:
+    """The setups in the folder where this system keeps a user's configuration."""
+    return Setups(Path(click.get_app_dir("skg")) / "setups")
 
 
 class RomName(click.Choice):

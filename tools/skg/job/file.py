@@ -15,11 +15,14 @@ from typing import Any
 
 from skg.errors import UserError
 from skg.job import values
-from skg.job.job import INTO, KINDS, ROMS, SMALL, Chosen, Job, MachineSetup
+from skg.job.job import INTO, KINDS, ROMS, SMALL, Chosen, Job, MachineSetup, TapeForm
 from skg.job.read_options import OPEN, UNITS, Wishes
 from skg.job.wanted import LEAD_SHAPES, SIDES, Partial
 from skg.messages.finding import Finding
+from skg.tape.styles import STYLES
 
+#: Tables of a file: their keys with the values.
+Tables = Mapping[str, Mapping[str, Any]]
 #: The version of the file's form.
 SCHEMA = 1
 #: Names of a drawing's layers may have bytes that are no text: they stay what they are.
@@ -73,6 +76,7 @@ _CONTOUR: dict[str, values.Check] = {
     "entry": values.place,
     "order": values.whole(1, 1_000_000),
 }
+TAPE: dict[str, values.Check] = {"style": values.choice(STYLES), "short_name": values.flag}
 _TOP: dict[str, values.Check] = {
     "schema": values.whole(SCHEMA, SCHEMA),
     "drawing": values.file_name,
@@ -81,28 +85,75 @@ _TOP: dict[str, values.Check] = {
     "starts": values.places,
 }
 #: The tables of a file, with their keys; those of lists.
-_TABLES = {"read": _READ, "machine": _MACHINE, "default": _DEFAULT}
+TABLES = {"read": _READ, "machine": _MACHINE, "default": _DEFAULT, "tape": TAPE}
 _LISTS = {"layer": _LAYER, "contour": _CONTOUR}
+#: The keys that a setup may have: what a shop keeps for one machine and wire.
+SETUP: dict[str, tuple[str, ...]] = {
+    "machine": ("wire", "gap", "offset", "rom", "ram", "feed"),
+    "default": ("passes", "tab_passes"),
+    "tape": tuple(TAPE),
+}
 
 
-def load(text: str, name: str) -> Job:
-    """Read a job file's text; `name` is the file's name, for messages."""
+def load(text: str, name: str, setup: Tables | None = None) -> Job:
+    """Read a job file's text; `name` is the file's name, for messages. `setup`: tables for what it does not say."""
+    return from_data(_parsed(text, name), name, setup)
+
+
+def _parsed(text: str, name: str) -> dict[str, Any]:
     try:
-        data = tomllib.loads(text)
+        return tomllib.loads(text)
     except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
         # (an int of more than 4,300 digits is a plain ValueError)
         detail = str(error) or "nested too deeply"
         raise UserError(Finding("not-toml", detail=detail).within(name)) from None
-    return from_data(data, name)
 
 
-def decoded(data: bytes, name: str) -> Job:
-    """Read a job file's bytes: UTF-8."""
+def decoded(data: bytes, name: str, setup: Tables | None = None) -> Job:
+    """Read a job file's bytes: UTF-8. `setup`: tables for what it does not say."""
+    return load(_text(data, name), name, setup)
+
+
+def _text(data: bytes, name: str) -> str:
     try:
-        text = data.decode("utf-8-sig", _ODD)
+        return data.decode("utf-8-sig", _ODD)
     except UnicodeDecodeError as error:
         raise UserError(Finding("not-utf-8", number=error.start + 1).within(name)) from None
-    return load(text, name)
+
+
+def decoded_setup(data: bytes, name: str) -> Tables:
+    """Read a setup file's bytes: some keys of a job file's tables."""
+    return setup_from_data(_parsed(_text(data, name), name), name)
+
+
+def setup_from_data(data: object, name: str) -> Tables:
+    """Make a setup's tables of plain data; what is wrong with these is a `UserError` as of a job."""
+    top = expect_table(data, name)
+    _refuse_unknown(top, SETUP, name)
+    tables = _tables(top, {table: {key: TABLES[table][key] for key in keys} for table, keys in SETUP.items()}, name)
+    _made(tables, name)
+    return {table: keys for table, keys in tables.items() if keys}
+
+
+def encoded_setup(setup: Tables) -> bytes:
+    """The bytes of a setup file."""
+    lines: list[str] = []
+    for table in SETUP:
+        if keys := setup.get(table):
+            lines += [*[""] * bool(lines), f"[{table}]", *pairs(keys)]
+    return "".join(f"{line}\n" for line in lines).encode("utf-8", _ODD)
+
+
+def over(tables: Tables, setup: Tables) -> dict[str, dict[str, Any]]:
+    """Tables with those of a setup for what they do not say: a wire takes the place of an offset, and an offset that of
+    wire and gap."""
+    merged = {table: dict(keys) for table, keys in tables.items()}
+    for table, keys in setup.items():
+        said = merged.setdefault(table, {})
+        instead = {"offset": ("wire", "gap"), "wire": ("offset",)} if table == "machine" else {}
+        beaten = {beaten for key in said for beaten in instead.get(key, ())}
+        merged[table] = {key: value for key, value in keys.items() if key not in beaten} | said
+    return merged
 
 
 def encoded(job: Job) -> bytes:
@@ -110,31 +161,48 @@ def encoded(job: Job) -> bytes:
     return dump(job).encode("utf-8", _ODD)
 
 
-def from_data(data: object, name: str) -> Job:
-    """Make the job of plain data; what is wrong with these is a `UserError` that begins with the name and the place."""
+def from_data(data: object, name: str, setup: Tables | None = None) -> Job:
+    """Make the job of plain data; what is wrong with these is a `UserError` that begins with the name and the place.
+    `setup`: tables for what they do not say."""
     top = expect_table(data, name)
-    _refuse_unknown(top, {**_TOP, **_TABLES, **_LISTS}, name)
+    _refuse_unknown(top, {**_TOP, **TABLES, **_LISTS}, name)
     settings = checked_values({key: value for key, value in top.items() if key in _TOP}, _TOP, name)
     for key in ("schema", "drawing"):
         if key not in settings:
             missing = Finding("schema-missing", schema=SCHEMA) if key == "schema" else Finding("key-missing", key=key)
             raise UserError(missing.within(name))
     del settings["schema"]
-    tables = {
-        key: checked_values(expect_table(top.get(key, {}), f"{name}: [{key}]"), keys, f"{name}: [{key}]")
-        for key, keys in _TABLES.items()
-    }
+    tables = over(_tables(top, TABLES, name), setup or {})
     layers = _layers(_list(top, "layer", name), name)
     contours = tuple(_chosen(table, where) for table, where in _list(top, "contour", name))
     _refuse_twins(contours, name)
+    return Job(layers=layers, contours=contours, **_made(tables, name), **settings)
+
+
+def _tables(top: Mapping[str, Any], known: Mapping[str, dict[str, values.Check]], name: str) -> dict[str, dict]:
+    """The tables that are known, their values checked."""
+    return {
+        key: checked_values(expect_table(top.get(key, {}), f"{name}: [{key}]"), keys, f"{name}: [{key}]")
+        for key, keys in known.items()
+    }
+
+
+def _made(tables: Tables, name: str) -> dict[str, Any]:
+    """The parts of a job that its tables are, by their names as fields."""
     try:
-        machine = MachineSetup(**tables["machine"])
+        return made(tables)
     except UserError as error:
         raise error.within(name, "[machine]") from None
-    read = Wishes(**{"open": None, **tables["read"]})
-    return Job(
-        read=read, machine=machine, default=Partial(**tables["default"]), layers=layers, contours=contours, **settings
-    )
+
+
+def made(tables: Tables) -> dict[str, Any]:
+    """The parts of a job that tables of checked values are, by their names as fields."""
+    return {
+        "read": Wishes(**{"open": None, **tables.get("read", {})}),
+        "machine": MachineSetup(**tables.get("machine", {})),
+        "default": Partial(**tables.get("default", {})),
+        "tape": TapeForm(**tables.get("tape", {})),
+    }
 
 
 def _layers(entries: list[tuple[dict[str, Any], str]], name: str) -> dict[str, Partial]:
@@ -217,17 +285,16 @@ def _told(value: object) -> str:
 
 def to_data(job: Job) -> dict[str, Any]:
     """The job as plain data: what is not said is left out."""
-    read = {key: value for key, value in vars(job.read).items() if value != getattr(Wishes(open=None), key)}
-    machine = {key: value for key, value in vars(job.machine).items() if value != getattr(MachineSetup(), key)}
+    parts = (("read", Wishes(open=None)), ("machine", MachineSetup()), ("tape", TapeForm()))
+    said = {
+        key: {name: value for name, value in vars(getattr(job, key)).items() if value != getattr(usual, name)}
+        for key, usual in parts
+    } | {"default": job.default.said()}
     return {
         "schema": SCHEMA,
         "drawing": job.drawing,
         **{key: value for key in ("sha256", "box", "starts") if (value := _plain(getattr(job, key)))},
-        **{
-            key: {name: _plain(value) for name, value in table.items()}
-            for key, table in (("read", read), ("machine", machine), ("default", job.default.said()))
-            if table
-        },
+        **{key: {name: _plain(value) for name, value in said[key].items()} for key in TABLES if said[key]},
         **_lists(job),
     }
 
@@ -259,20 +326,21 @@ def dump(job: Job) -> str:
     """The text of a job file."""
     lines: list[str] = []
     data = to_data(job)
-    for key in (*_TOP, *_TABLES, *_LISTS):
+    for key in (*_TOP, *TABLES, *_LISTS):
         value = data.get(key)
         if isinstance(value, dict):
-            lines += ["", f"[{key}]", *_pairs(value)]
+            lines += ["", f"[{key}]", *pairs(value)]
         elif key in _LISTS:
             for table in value or []:
-                lines += ["", f"[[{key}]]", *_pairs(table)]
+                lines += ["", f"[[{key}]]", *pairs(table)]
         elif value is not None:
-            lines += _pairs({key: value})
+            lines += pairs({key: value})
     return "\n".join(lines) + "\n"
 
 
-def _pairs(table: Mapping[str, object]) -> list[str]:
-    return [f"{key} = {_in_toml(value)}" for key, value in table.items()]
+def pairs(table: Mapping[str, object]) -> list[str]:
+    """Keys with their values, as a file has them."""
+    return [f"{key} = {_in_toml(_plain(value))}" for key, value in table.items()]
 
 
 def _in_toml(value: object) -> str:

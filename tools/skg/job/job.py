@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
@@ -11,6 +12,7 @@ from skg.job.read_options import Wishes
 from skg.job.values import MOST_OFFSET
 from skg.job.wanted import Partial, Wanted
 from skg.messages.finding import Finding, Phrase
+from skg.tape.styles import STYLES
 
 #: A box: its smallest x and y, its largest x and y, mm.
 Box = tuple[float, float, float, float]
@@ -62,6 +64,20 @@ class MachineSetup:
 
 
 @dataclass(frozen=True)
+class TapeForm:
+    """The form in which the control takes a 3B tape. `style`: one of `STYLES`; `short_name`: its name has at most eight
+    letters, digits, - or _, and ends in .3b."""
+
+    style: str = next(iter(STYLES))
+    short_name: bool = False
+
+    def refuse_name(self, name: str) -> None:
+        """Raise a `UserError` where the control does not take a tape of that name."""
+        if self.short_name and not re.fullmatch(r"[A-Za-z0-9_-]{1,8}\.3b", name, re.IGNORECASE):
+            raise UserError(Finding("name-not-short").within(name))
+
+
+@dataclass(frozen=True)
 class Chosen:
     """One contour, and what is said of it. `layer`: one that it is on; `kind`: one of `KINDS`. It is found again by a
     `place` on it and by its `size`, mm."""
@@ -94,6 +110,7 @@ class Job:
     box: Box | None = None
     read: Wishes = Wishes(open=None)
     machine: MachineSetup = MachineSetup()
+    tape: TapeForm = TapeForm()
     starts: tuple[XY, ...] = ()
     default: Partial = Partial()
     layers: Mapping[str, Partial] = field(default_factory=dict)

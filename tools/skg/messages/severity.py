@@ -14,6 +14,8 @@ class Severity(Enum):
     LOST = "lost"
     #: Nobody told it: it was guessed.
     GUESS = "guess"
+    #: Settings come from elsewhere than the command line or the job.
+    USED = "used"
     #: All else.
     NOTE = "note"
 
@@ -83,10 +85,13 @@ _GUESS = frozenset(
         "size-guessed",
     }
 )
+_USED = frozenset({"setup-used"})
 
 
 def severity_of(code: str) -> Severity:
     """Return a code's severity."""
+    if code in _USED:
+        return Severity.USED
     if code in _CARE:
         return Severity.CARE
     if code in _LOST:
