@@ -9,6 +9,7 @@ from threading import Thread
 import pytest
 from uihelp import Page
 
+from skg.job.setups import Setups
 from skg.ui.server import Server
 from skg.ui.session import Session
 
@@ -20,12 +21,13 @@ def libraries(build: Callable[..., None]) -> None:
 
 
 @pytest.fixture
-def serve() -> Iterator[Callable[[Path | None], Server]]:
+def serve(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[Path | None], Server]]:
     """Begin a server, with a file or without."""
     servers = []
+    setups = Setups(tmp_path_factory.mktemp("config") / "setups")
 
     def begin(path: Path | None = None) -> Server:
-        session = Session()
+        session = Session(setups)
         session.begin(path)
         server = Server(0, session)
         servers.append(server)

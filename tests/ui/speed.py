@@ -9,12 +9,13 @@ import sys
 import time
 from pathlib import Path
 from statistics import median
-from tempfile import TemporaryDirectory
+from tempfile import TemporaryDirectory, gettempdir
 from threading import Thread
 
 from uihelp import Page, circles
 
 from skg.garbage import collect_rarely
+from skg.job.setups import Setups
 from skg.ui.server import Server
 from skg.ui.session import Session
 
@@ -31,7 +32,7 @@ def dragged(page: Page, state: dict, at: int) -> float:
 def main(counts: list[int]) -> None:
     """Print a line for each number of circles."""
     collect_rarely()
-    session = Session()
+    session = Session(Setups(Path(gettempdir()) / "skg-no-setups"))
     session.begin(None)
     server = Server(0, session)
     Thread(target=server.serve_forever, args=(0.05,), daemon=True).start()

@@ -29,6 +29,10 @@ ROUTES = [
     ("GET", "/api/run/1/from/2"),
     ("POST", "/api/save"),
     ("POST", "/api/take"),
+    ("GET", "/api/setups"),
+    ("POST", "/api/setups"),
+    ("PUT", "/api/setups"),
+    ("DELETE", "/api/setups"),
 ]
 
 
@@ -281,6 +285,7 @@ TABLES = {
     "read": "units open tolerance start_layer fit_tolerance encoding layers bridges odd",
     "machine": "wire gap offset rom ram feed small into material thickness",
     "default": "cut side passes tab slug_tab tabs tab_passes overlap lead lead_shape reverse odd",
+    "tape": "style short_name odd",
     "contour": "layer kind at size offset start entry order tab tabs passes",
 }
 

@@ -16,6 +16,7 @@ from click.testing import CliRunner
 from uihelp import Page
 
 from skg.cli import cli
+from skg.job.setups import Setups
 from skg.ui.server import Server
 from skg.ui.session import Session
 
@@ -43,9 +44,9 @@ SHOWN = [
 
 
 @pytest.fixture(scope="module")
-def one_page() -> Iterator[Page]:
+def one_page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
     """A page for all of them."""
-    session = Session()
+    session = Session(Setups(tmp_path_factory.mktemp("config")))
     session.begin(None)
     server = Server(0, session)
     Thread(target=server.serve_forever, daemon=True).start()

@@ -550,3 +550,29 @@ def skg_style(path: Path) -> bytes:
     """A tape as the board punches it."""
     skg("tape", path, "-o", path.with_name("punch.3b"), "--style", "punch")
     return path.with_name("punch.3b").read_bytes()
+
+
+def test_setups(serve: Callable[[], Server], tmp_path: Path) -> None:
+    """What is kept is the next drawing's; nothing is kept over another without a question; a damaged one is told of."""
+    server = serve()
+    page, folder = Page(server), server.session.kept_setups.folder
+    known = page.done("GET", "/api/setups")
+    assert (known["setups"], known["last"]) == ([], "") and "wire" in known["keys"]["machine"]
+    # (as a job has it: what is usual is not said)
+    tables = {"machine": {"wire": 0.2, "feed": 5}, "default": {"passes": [0.05, 0]}, "tape": {"style": "spaced"}}
+    known = page.done("PUT", "/api/setups", {"name": "细丝", "tables": tables})
+    tables["machine"].pop("feed")
+    assert known["setups"] == [{"name": "细丝", "tables": tables}] and known["last"] == "细丝"
+    answer = page.call("PUT", "/api/setups", {"name": "细丝", "tables": {}})
+    assert (answer.status, answer.json["exists"]) == (409, ["细丝"])
+    for name, odd in (("../x", {}), ("a", {"machine": {"wire": -1}}), ("a", {"read": {}}), ("a", {"machine": 1})):
+        assert page.call("PUT", "/api/setups", {"name": name, "tables": odd}).status == 400
+    job = page.open(plate(tmp_path))["job"]
+    assert {table: job[table] for table in tables} == tables
+    (folder / "bad.toml").write_text("[machine")
+    bad, _ = page.done("GET", "/api/setups")["setups"]
+    assert bad["name"] == "bad" and bad["error"]["code"] == "not-toml"
+    assert page.call("POST", "/api/setups", {"name": "bad"}).status == 400
+    assert page.done("POST", "/api/setups", {"name": ""})["last"] == ""
+    assert "machine" not in page.open(plate(tmp_path))["job"]
+    assert [one["name"] for one in page.done("DELETE", "/api/setups", {"name": "细丝"})["setups"]] == ["bad"]

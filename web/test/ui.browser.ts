@@ -1,11 +1,12 @@
 /** The drawing on the screen, `skg ui`, in Debian's chromium. */
 import assert from "node:assert/strict";
-import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
 import { type Browser, type BrowserContextOptions, chromium, type Locator, type Page } from "playwright-core";
 import { PATIENCE, WHOLE } from "./served.ts";
-import { BRACKET, box, circle, cutByCommand, dxf, endAll, field, line, start } from "./uistart.ts";
+import { BRACKET, box, circle, cutByCommand, dxf, endAll, field, line, NO_SETUPS, start } from "./uistart.ts";
 
 const CHROMIUM = "/usr/bin/chromium";
 const SHOTS = process.env["SHOTS"] ?? "web/build/shots";
@@ -725,6 +726,70 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await value(other.page, "field-wire", "0.18");
     await other.page.waitForSelector("#decide", { state: "hidden" });
     await other.context.close();
+  });
+
+  test("a setup is kept, chosen by a click, the next drawing's by itself, and the command line's by its name", async (t) => {
+    const config = mkdtempSync(join(tmpdir(), "skg-config-"));
+    process.env["XDG_CONFIG_HOME"] = config;
+    t.after(() => {
+      process.env["XDG_CONFIG_HOME"] = NO_SETUPS;
+      rmSync(config, { recursive: true });
+    });
+    const { url, file, folder } = await start("bracket.dxf", BRACKET);
+    const { page, context } = await visit(url);
+    await drawn(page);
+    for (const [id, text] of [
+      ["wire", "0.18"],
+      ["gap", "0.01"],
+      ["feed", "8"],
+      ["passes", "0.06, 0"],
+      ["tab", "2"],
+    ])
+      await type(page, `field-${id}`, text as string);
+    await cut(page);
+    await page.click("#save");
+    await page.selectOption("#save-style", "numbered");
+    await page.click("#save-yes");
+    await message(page, /Saved beside the drawing/);
+    await page.click("#setups-open");
+    await page.fill("#setups-name", "../x");
+    await page.click("#setups-keep");
+    await says(page, "#setups-hint", /no name of a setup/);
+    await page.fill("#setups-name", "细丝 0.18");
+    await page.press("#setups-name", "Enter");
+    await message(page, /is kept/);
+    await value(page, "setup", "细丝 0.18");
+    // (what is kept is what was cut)
+    await page.waitForSelector("#outcome:is(.good, .care)");
+    await type(page, "field-wire", "0.25");
+    await value(page, "setup", "");
+    await page.selectOption("#setup", "细丝 0.18");
+    await value(page, "field-wire", "0.18");
+    assert.deepEqual(await axe(page), []);
+    await shot(page, "setup");
+    const command = cutByCommand(folder, "bracket.dxf", "--setup", "细丝 0.18", "--tab", "2");
+    assert.deepEqual(command, file("bracket.nodrift.3b"));
+    assert.match(command.toString(), /^N {3}1: B/);
+    await context.close();
+    const other = await start("circle.dxf", dxf(circle(0, 0, 9)));
+    const next = await visit(other.url);
+    await drawn(next.page);
+    await value(next.page, "setup", "细丝 0.18");
+    await value(next.page, "field-feed", "8");
+    await next.page.click("#setups-open");
+    await next.page.click("#setups-list button");
+    await next.page.click("#question-yes");
+    await next.page.waitForFunction(() => !document.querySelector("#setups-list li"));
+    await next.page.click("#setups-close");
+    await value(next.page, "setup", "");
+    await next.context.close();
+    writeFileSync(join(config, "skg", "setups", "bad.toml"), "[machine");
+    writeFileSync(join(config, "skg", "setups", "last"), "bad");
+    const damaged = await visit((await start("circle.dxf", dxf(circle(0, 0, 9)))).url);
+    await message(damaged.page, /bad\.toml: no TOML/);
+    await drawn(damaged.page);
+    await value(damaged.page, "setup", "");
+    await damaged.context.close();
   });
 
   test("an open end is bridged by a click, kept in the job, undone; distance, radius and angle are measured", async () => {

@@ -7,6 +7,10 @@ import { join } from "node:path";
 const SKG = process.env["SKG"] ?? ".venv/bin/skg";
 export const BRACKET = readFileSync("docs/pictures/bracket.dxf");
 
+// (setups of whoever runs the tests are not theirs)
+export const NO_SETUPS = join(tmpdir(), "skg-no-setups");
+process.env["XDG_CONFIG_HOME"] = NO_SETUPS;
+
 const left: (() => void)[] = [];
 
 /** Ends what was started. */

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, cast
 
 import click
 
+from skg.commands.options import kept_setups
 from skg.errors import UserError, of_system
 from skg.messages.finding import Finding
 from skg.messages.render import text
@@ -50,7 +51,7 @@ def command(file: Path | None, port: int, no_browser: bool, until_eof: bool) -> 
     from skg.ui.server import Server
     from skg.ui.session import Session
 
-    session = Session()
+    session = Session(kept_setups())
     try:
         # (a session that has begun has a process, which would end in a traceback where this one ends at once)
         try:

@@ -64,12 +64,20 @@ class Desk:
         """The drawing that a job file is for."""
         return job_files.decoded(text, name).drawing
 
-    def open(self, data: bytes, name: str, job: bytes | dict | None, is_known: bool = False) -> dict[str, Any]:
-        """Take up a drawing, with a job from a file or from the page, or none. `is_known`: it was open before."""
+    def open(
+        self,
+        data: bytes,
+        name: str,
+        job: bytes | dict | None,
+        is_known: bool = False,
+        setup: job_files.Tables | None = None,
+    ) -> dict[str, Any]:
+        """Take up a drawing, with a job from a file or from the page, or none: that of a setup then. `is_known`: it was
+        open before."""
         if isinstance(job, bytes):
             made = job_files.decoded(job, name)
         else:
-            made = job_files.from_data(job, _PAGE) if job else Job(name)
+            made = job_files.from_data(job, _PAGE) if job else Job(name, **job_files.made(setup or {}))
         self._data, self._doubts = data, {}
         if not is_known:
             self._seen = None

@@ -22,8 +22,10 @@ from typing import NoReturn
 from urllib.parse import parse_qs, unquote
 
 from skg.errors import UserError
+from skg.job.job import TapeForm
 from skg.messages.catalogue import LANGUAGES
 from skg.messages.finding import Finding
+from skg.tape.styles import STYLES
 from skg.terminal import remark
 from skg.ui.json_text import encoded, said, told
 from skg.ui.session import Conflict, Session
@@ -380,7 +382,11 @@ class Handler(BaseHTTPRequestHandler):
         self._send_json(self.server.session.cancel(int(number)))
 
     def _file(self, query: dict[str, str], number: str, kind: str) -> None:
-        file = self.server.session.file(int(number), kind, _language(query.get("language")))
+        session = self.server.session
+        if kind == "job" and query.get("style") in STYLES:
+            file = session.job_in_form(int(number), TapeForm(query["style"], query.get("short") == "true"))
+        else:
+            file = session.file(int(number), kind, _language(query.get("language")))
         self._send(file, TYPES[kind])
 
     def _save(self, query: dict[str, str]) -> None:
@@ -402,6 +408,20 @@ class Handler(BaseHTTPRequestHandler):
     def _take(self, query: dict[str, str]) -> None:
         data = self._json()
         self._send_json(self.server.session.take(_field(data, "name", str), data.get("take") is True))
+
+    def _setups(self, query: dict[str, str]) -> None:
+        self._send_json(self.server.session.setups())
+
+    def _use_setup(self, query: dict[str, str]) -> None:
+        self._send_json(self.server.session.use_setup(_field(self._json(), "name", str)))
+
+    def _keep_setup(self, query: dict[str, str]) -> None:
+        data = self._json()
+        name, tables = _field(data, "name", str), _field(data, "tables", dict)
+        self._send_json(self.server.session.keep_setup(name, tables, data.get("overwrite") is True))
+
+    def _drop_setup(self, query: dict[str, str]) -> None:
+        self._send_json(self.server.session.drop_setup(_field(self._json(), "name", str)))
 
     def _send_json(self, data: dict, status: HTTPStatus = HTTPStatus.OK) -> None:
         self._send(encoded(data), "application/json", status)
@@ -458,6 +478,10 @@ ROUTES = (
     ("GET", "/api/run/([0-9]{1,9})/from/([0-9]{1,9})", Handler._rest),
     ("POST", "/api/save", Handler._save),
     ("POST", "/api/take", Handler._take),
+    ("GET", "/api/setups", Handler._setups),
+    ("POST", "/api/setups", Handler._use_setup),
+    ("PUT", "/api/setups", Handler._keep_setup),
+    ("DELETE", "/api/setups", Handler._drop_setup),
 )
 
 

@@ -5,14 +5,15 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from threading import Condition, Event, Lock, Thread
 
 from skg.errors import UserError, of_system
 from skg.files import is_same_file, read_bytes, write_bytes
 from skg.job import file as job_files
-from skg.job.job import ROMS
+from skg.job.job import ROMS, Job, TapeForm
+from skg.job.setups import Setups
 from skg.messages.finding import Finding, Phrase
 from skg.tape.block import Block
 from skg.tape.positions import WITHOUT_DRIFT
@@ -75,7 +76,8 @@ class Run:
 class Session:
     """The open job, drawing and plan of one `skg ui`."""
 
-    def __init__(self) -> None:
+    def __init__(self, setups: Setups) -> None:
+        self.kept_setups = setups
         self._worker = Worker()
         #: Lock for calls of the worker: one change, one cut at a time. `_is_long`: the call may take its time, and
         #: ends if another takes its place.
@@ -308,7 +310,7 @@ class Session:
             self._worker.first = None
             is_known = path is not None and bool(self._drawing)
             try:
-                answer = self._worker.call("open", data, name, job, is_known)
+                answer = self._worker.call("open", data, name, job, is_known, None if job else self._last_setup())
             except Ended as ended:
                 if ended.is_wanted:
                     raise
@@ -507,6 +509,12 @@ class Session:
             raise UserError(Finding("bad-request", detail=f"block: expected from 1 to {len(begins)}"))
         return to_style(items[begins[first - 1] :], style)
 
+    def job_in_form(self, number: int, form: TapeForm) -> bytes:
+        """The job of a run with the form in which its tape is saved."""
+        data = self.file(number, "job")
+        job = job_files.decoded(data, self._names()["job"])
+        return data if job.tape == form else job_files.encoded(replace(job, tape=form))
+
     def named(self, name: str, is_short: bool) -> dict[str, str]:
         """The names of files, all of them after a given one, but for the job: it is the drawing's. `is_short`: that of
         the tape has eight letters and three, and does not tell whether it is without drift."""
@@ -540,12 +548,15 @@ class Session:
             raise UserError(Finding("bad-request", detail=detail))
         if number is None and kinds != ["job"]:
             raise UserError(Finding("bad-request", detail="run: expected a number, for what is made by a run"))
+        form = TapeForm(style, is_short)
         names, folder = self.named(name, is_short), self._path.parent
         if number is not None:
             names["tape"] = names["tape"] if name else self._known(number).result["tape_name"]
             files = {kind: self.file(number, kind, language, names["tape"]) for kind in SAVED if kind in kinds}
             if "tape" in kinds:
                 files["tape"] = self.styled(number, style)
+            if "job" in kinds:
+                files["job"] = self.job_in_form(number, form)
         else:
             files = {"job": self._job_file()}
         files = {names[kind]: data for kind, data in files.items()}
@@ -571,11 +582,66 @@ class Session:
                 self._forget_kept()
         return written
 
+    # Setups.
+
+    def setups(self) -> dict:
+        """The setups that are kept, as a job has their keys, with the one that was chosen last, and all keys."""
+        every = []
+        for name in self.kept_setups.names():
+            try:
+                tables = job_files.to_data(Job("", **job_files.made(self.kept_setups.kept(name))))
+                every.append({"name": name, "tables": {key: tables.get(key, {}) for key in job_files.SETUP}})
+            except UserError as error:
+                every.append({"name": name, "error": told(error)})
+            except OSError as error:
+                every.append({"name": name, "error": told(UserError(of_system(error).within(name)))})
+        return {"setups": every, "last": self.kept_setups.last(), "keys": job_files.SETUP}
+
+    def _last_setup(self) -> job_files.Tables | None:
+        """The setup that was chosen last; a damaged one is told of where setups are listed."""
+        name = self.kept_setups.last()
+        with suppress(UserError, OSError):
+            return self.kept_setups.kept(name) if name else None
+        return None
+
+    def use_setup(self, name: str) -> dict:
+        """Note the setup that was chosen last, or that none is: it is the next drawing's."""
+        if name:
+            self.kept_setups.kept(name)
+        with _writing(self.kept_setups.folder):
+            self.kept_setups.note_last(name)
+        return self.setups()
+
+    def keep_setup(self, name: str, tables: dict, is_over: bool) -> dict:
+        """Keep a setup. One that is there is a `Conflict`."""
+        checked = job_files.setup_from_data(tables, name)
+        if self.kept_setups.is_kept(name) and not is_over:
+            raise Conflict(Finding("already-there", names=(name,)), exists=[name])
+        with _writing(self.kept_setups.folder):
+            self.kept_setups.keep(name, checked)
+            self.kept_setups.note_last(name)
+        return self.setups()
+
+    def drop_setup(self, name: str) -> dict:
+        """Remove a setup."""
+        with _writing(self.kept_setups.folder):
+            self.kept_setups.drop(name)
+        return self.setups()
+
     def _note_saved(self, number: int | None) -> None:
         """Note that the job of a run, or that of now, is in a file."""
         with self._news:
             if number is None or self._run and (self._run.number, self._run.rev) == (number, self._rev):
                 self._saved = self._state["job"]
+
+
+@contextmanager
+def _writing(folder: Path) -> Iterator[None]:
+    """An error in writing there is the user's."""
+    try:
+        yield
+    except OSError as error:
+        raise UserError(Finding("not-written", detail=of_system(error), done=None).within(str(folder))) from None
 
 
 def _stamp(path: Path) -> tuple[int, ...] | None:

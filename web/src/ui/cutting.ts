@@ -14,6 +14,8 @@ export class Cutting {
   readonly #desk: Desk;
   readonly #server: Server;
   #rev: number | undefined;
+  /** What was cut, if this page began it. */
+  #cut = "";
   /** The run that is followed: its number on the server. */
   run: number | undefined;
   outcome: Outcome = { kind: "none" };
@@ -30,7 +32,13 @@ export class Cutting {
 
   /** The tape is not of the job that is seen. */
   get isOld(): boolean {
-    return !this.#desk.isSettled || this.#rev !== this.#desk.rev;
+    return !this.#desk.isSettled || (this.#rev !== this.#desk.rev && this.#cut !== this.#seen);
+  }
+
+  /** The drawing and the job that is seen, without the form in which the control takes the tape. */
+  get #seen(): string {
+    const { tape: _, ...job } = this.#desk.edited.job;
+    return JSON.stringify([this.#desk.state?.drawn, job]);
   }
 
   /** There is a tape of the job that is seen. */
@@ -49,6 +57,7 @@ export class Cutting {
     try {
       await this.#desk.settle();
       this.#rev = this.#desk.rev;
+      this.#cut = this.#seen;
       this.run = await this.#server.cut(this.#rev);
       await this.#follow(this.run);
     } catch (error) {
@@ -75,6 +84,7 @@ export class Cutting {
     } else if (state.run !== this.run) {
       this.run = state.run;
       this.#rev = state.run_rev ?? undefined;
+      this.#cut = "";
       this.#follow(state.run).catch((error: unknown) => this.#fail(error));
     }
   }

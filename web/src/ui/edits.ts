@@ -1,5 +1,5 @@
 /** Changes of a job: each gives another job. Contours are known by their numbers in the drawing as it is now. */
-import type { Chosen, Contour, Gap, Job, Match, Point, Wanted } from "./types.ts";
+import type { Chosen, Contour, Gap, Job, Match, Point, Tables, Values, Wanted } from "./types.ts";
 
 /** A job, and the contour that each of its `contour` entries is about; null: it is lost. */
 export interface Edited {
@@ -106,6 +106,16 @@ export function forget({ job, ids }: Edited, index: number): Edited {
 export function set(before: Edited, part: "machine" | "read", key: string, value: unknown): Edited {
   const { [key]: _, ...others } = before.job[part] ?? {};
   return { ...before, job: { ...before.job, [part]: value === undefined ? others : { ...others, [key]: value } } };
+}
+
+/** Tables take the place of all that the job has of their keys. */
+export function withTables(before: Edited, keys: Readonly<Record<string, readonly string[]>>, tables: Tables): Edited {
+  const taken = Object.entries(keys).map(([table, own]) => {
+    const found = (before.job[table as keyof Job] ?? {}) as Values;
+    const others = Object.entries(found).filter(([key]) => !own.includes(key));
+    return [table, { ...Object.fromEntries(others), ...tables[table] }] as const;
+  });
+  return { ...before, job: { ...before.job, ...Object.fromEntries(taken) } };
 }
 
 /** Lines are put in between ends, beside those that there are. */

@@ -21,6 +21,7 @@ import { Report } from "./report.ts";
 import { Results } from "./result.ts";
 import { Saving } from "./saving.ts";
 import { Gone, Refusal, Server } from "./server.ts";
+import { SetupBar } from "./setups.ts";
 import { TellTale } from "./told.ts";
 import { Tree } from "./tree.ts";
 import { visible } from "./visible.ts";
@@ -44,11 +45,13 @@ const decisions = new Decisions(desk, canvas, told);
 const report = new Report(desk, told, (line) => decisions.look(line));
 const saving = new Saving(desk, cutting, server);
 const results = new Results(cutting, server, canvas, told, saving, new WebAssembly.Module(walkBytes));
+const setups = new SetupBar(desk, server, saving);
 const menu = new Menu(desk, actions);
 const appearance = new Appearance(
   () => {
     fields.name();
     machine.name();
+    setups.show();
     matches.show();
     tree.name();
     results.name();
@@ -199,6 +202,7 @@ async function begin(): Promise<void> {
   appearance.paint();
   view("drawing");
   document.body.dataset["ready"] = String(Math.round(performance.now()));
+  void setups.begin();
   try {
     await desk.listen();
   } catch (error) {

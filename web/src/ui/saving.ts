@@ -7,7 +7,7 @@ import { ask, show } from "../message.ts";
 import type { Cutting } from "./cutting.ts";
 import type { Desk } from "./desk.ts";
 import { Gone, Refusal, type Server } from "./server.ts";
-import type { FileKind, Named, Style } from "./types.ts";
+import type { FileKind, Named, Style, Values } from "./types.ts";
 import { w } from "./words.ts";
 
 /** Endings of what is downloaded, behind the name without its own. */
@@ -22,7 +22,7 @@ export class Saving {
   readonly #desk: Desk;
   readonly #cutting: Cutting;
   readonly #server: Server;
-  /** The drawing for which name and style were asked. */
+  /** The drawing, and the job's form of the tape, for which name and style were asked. */
   #asked = "";
   #named: Named = { name: "", style: "punch", short: false };
 
@@ -32,8 +32,26 @@ export class Saving {
     this.#server = server;
   }
 
+  /** What is asked for once: another drawing, or another form of its tape, is asked for anew. */
+  get #subject(): string {
+    return JSON.stringify([this.#desk.state?.name, this.#desk.edited.job.tape ?? {}]);
+  }
+
+  /** What was asked for, else what the job has. */
+  get #wanted(): Named {
+    if (this.#asked === this.#subject) return this.#named;
+    const { style = "punch", short_name: short = false } = this.#desk.edited.job.tape ?? {};
+    return { name: "", style: style as Style, short: short as boolean };
+  }
+
   get style(): Style {
-    return this.#named.style;
+    return this.#wanted.style;
+  }
+
+  /** The form of the tape in the words of a job. */
+  get form(): Values {
+    const { style, short } = this.#wanted;
+    return { style, short_name: short };
   }
 
   /** The drawing's name without its ending. */
@@ -46,7 +64,7 @@ export class Saving {
     const { state } = this.#desk;
     if (!state) return;
     const run = this.#cutting.isDone ? (this.#cutting.run ?? null) : null;
-    if (run !== null && (isNew || this.#asked !== state.name) && !(await this.#ask())) return;
+    if (run !== null && (isNew || this.#asked !== this.#subject) && !(await this.#ask())) return;
     const what: FileKind[] = run === null ? ["job"] : ticked();
     if (!what.length) return;
     try {
@@ -65,9 +83,10 @@ export class Saving {
     const dialog = get<HTMLDialogElement>("save-as");
     const [name, style] = [get<HTMLInputElement>("save-name"), get<HTMLSelectElement>("save-style")];
     const [eight, hint] = [get<HTMLInputElement>("save-eight"), get("save-hint")];
-    name.value = (this.#asked === this.#desk.state?.name && this.#named.name) || this.#stem;
-    style.value = this.#named.style;
-    eight.checked = this.#named.short;
+    const wanted = this.#wanted;
+    style.value = wanted.style;
+    eight.checked = wanted.short;
+    name.value = wanted.name || (wanted.short ? shortened(this.#stem) : this.#stem);
     const check = (): boolean => {
       const isBad = BAD_NAME.test(name.value) || (eight.checked && !EIGHT.test(name.value));
       name.ariaInvalid = String(isBad);
@@ -106,7 +125,7 @@ export class Saving {
       name.select();
     });
     if (!isTaken) return false;
-    this.#asked = this.#desk.state?.name ?? "";
+    this.#asked = this.#subject;
     this.#named = { name: name.value, style: style.value as Style, short: eight.checked };
     return true;
   }
@@ -124,7 +143,11 @@ export class Saving {
       const file =
         run === null
           ? await this.#server.job()
-          : await (each === "tape" ? this.#server.tape(run, this.#named.style) : this.#server.file(run, each));
+          : await (each === "tape"
+              ? this.#server.tape(run, this.#named.style)
+              : each === "job"
+                ? this.#server.jobOf(run, this.#named)
+                : this.#server.file(run, each));
       saveFile(name, file);
       names.push(name);
     }

@@ -1,6 +1,6 @@
 /** The calls to the server of `skg ui`. */
 import { spoken } from "../language.ts";
-import type { Empty, Fault, FileKind, Job, Later, Named, Put, Run, Said, State, Style, Ways } from "./types.ts";
+import type { Empty, Fault, FileKind, Job, Later, Named, Put, Run, Said, Setups, State, Style, Tables, Ways } from "./types.ts";
 
 /** The server refused, and said why. */
 export class Refusal extends Error {
@@ -71,6 +71,11 @@ export class Server {
     return (await this.#call("GET", "job")).blob();
   }
 
+  /** The job of a run, with the form in which its tape is saved. */
+  async jobOf(run: number, { style, short }: Named): Promise<Blob> {
+    return (await this.#call("GET", `run/${run}/job?style=${style}&short=${short}`)).blob();
+  }
+
   /** Writes files beside the drawing: their names. */
   async save(run: number | null, what: readonly FileKind[], overwrite: boolean, named: Named): Promise<string[]> {
     return (await this.#json<{ written: string[] }>("POST", "save", { run, what, overwrite, language: spoken(), ...named }))
@@ -85,6 +90,23 @@ export class Server {
   /** Takes a job that lies beside the drawing, or leaves it. */
   async take(name: string, take: boolean): Promise<State> {
     return this.#json("POST", "take", { name, take });
+  }
+
+  async setups(): Promise<Setups> {
+    return this.#json("GET", "setups");
+  }
+
+  /** The setup is the one that was chosen last; "": none is. */
+  async useSetup(name: string): Promise<Setups> {
+    return this.#json("POST", "setups", { name });
+  }
+
+  async keepSetup(name: string, tables: Tables, overwrite: boolean): Promise<Setups> {
+    return this.#json("PUT", "setups", { name, tables, overwrite });
+  }
+
+  async dropSetup(name: string): Promise<Setups> {
+    return this.#json("DELETE", "setups", { name });
   }
 
   async #json<T>(method: string, path: string, data?: unknown): Promise<T> {

@@ -50,6 +50,7 @@ export interface Job {
   readonly read?: Values;
   readonly machine?: Values;
   readonly default?: Wanted;
+  readonly tape?: Values;
   readonly layer?: readonly LayerWanted[];
   readonly contour?: readonly Chosen[];
 }
@@ -214,3 +215,18 @@ export interface Named {
   readonly short: boolean;
 }
 export type Style = "punch" | "spaced" | "numbered" | "padded" | "joined";
+
+/** Tables of a job: keys with their values. */
+export type Tables = Readonly<Record<string, Values>>;
+/** A setup that is kept, as a job has it; a damaged one has what is wrong with it. */
+export interface Setup {
+  readonly name: string;
+  readonly tables?: Tables;
+  readonly error?: Fault;
+}
+/** The setups, which was chosen last ("" for none), and the keys that one has, by table. */
+export interface Setups {
+  readonly setups: readonly Setup[];
+  readonly last: string;
+  readonly keys: Readonly<Record<string, readonly string[]>>;
+}
