@@ -31,7 +31,7 @@ ALLOWED = {
     "machine": {COMMON, "native", "tape"},
     "reading": {COMMON, "geometry", "job"},
     "planning": {COMMON, "geometry", "job"},
-    "checking": {COMMON, "geometry", "tape", "planning", "ref"},
+    "checking": {COMMON, "geometry", "job", "tape", "planning", "ref"},
     "cutting": {COMMON, "geometry", "job", "tape", "planning", "checking", "machine"},
     "pipeline": {COMMON, "geometry", "job", "reading", "planning", "checking", "cutting"},
     "sources": {COMMON, "geometry", "tape", "machine", "ref", "rivals"},

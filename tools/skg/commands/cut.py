@@ -15,6 +15,8 @@ from click.core import ParameterSource
 
 from skg.commands.options import (
     COORDINATES,
+    Degrees,
+    FiniteRange,
     Millimetres,
     RomName,
     feed_option,
@@ -33,6 +35,7 @@ from skg.geometry.plane import XY
 from skg.job import file as job_files
 from skg.job import values
 from skg.job.job import INTO, ROMS, SMALL, Job
+from skg.job.placing import MIRRORS
 from skg.job.read_options import OPEN, START, UNITS
 from skg.job.values import MOST_OFFSET
 from skg.job.wanted import LEAD, LEAD_SHAPES, SIDES
@@ -69,6 +72,8 @@ PASSES = JobValue("MM,MM,...", lambda value: values.passes(value if isinstance(v
 MORE_PASSES = JobValue(
     "MM,MM,...", lambda value: values.more_passes(value if isinstance(value, tuple) else numbers_in(value))
 )
+#: X,Y or a word for a place of the part's box.
+ORIGIN = JobValue("X,Y|WORD", lambda value: values.origin(numbers_in(value) or value))
 #: A text of one line.
 WORDS = JobValue("text", values.text)
 
@@ -155,6 +160,28 @@ _BESIDE_A_JOB = (
     default=LEAD,
     type=Millimetres(0, min_open=True),
     help="Distance from a chosen start hole to the contour, room permitting.",
+)
+@click.option(
+    "--origin",
+    type=ORIGIN,
+    help="What is 0,0 on the machine: a place of the drawing, or of the box around the part as it lies then: centre, "
+    "lower-left, lower-right, upper-left, upper-right. Default: the drawing's 0,0.",
+)
+@click.option(
+    "--turn", default=0.0, show_default=False, type=Degrees(-360, 360), help="Turn the part, counter-clockwise."
+)
+@click.option(
+    "--mirror",
+    type=click.Choice(MIRRORS),
+    help="Mirror the part, before it is turned: x swaps left and right, y above and below.",
+)
+@click.option(
+    "--scale",
+    default=1.0,
+    show_default=False,
+    metavar="TIMES",
+    type=FiniteRange(1 / values.MOST_SCALE, values.MOST_SCALE),
+    help="Cut the part so many times as large as it is drawn; the report says so. Wire, leads and tabs stay.",
 )
 @click.option(
     "--fit-tolerance",
@@ -313,6 +340,7 @@ def _cut(
 ) -> tuple[CutDrawing, list[Finding]] | None:
     """Cut the drawing and write the files: the result, and what there is to say of the tape's name; None: its layers
     were listed."""
+    from skg.pipeline.placing import told_as_drawn
     from skg.pipeline.steps import cut_drawing, open_drawing, written
 
     kept = kept_setups().kept(setup) if setup is not None else {}
@@ -339,7 +367,8 @@ def _cut(
         _refuse_elsewhere(save_job, path)
     drawn = open_drawing(job, read_bytes(path), path)
     cut = cut_drawing(job, drawn)
-    made = _for_machine(cut.result, dialect, output) if dialect else to_style(cut.result.tape.items, job.tape.style)
+    with told_as_drawn(cut.placement):
+        made = _for_machine(cut.result, dialect, output) if dialect else to_style(cut.result.tape.items, job.tape.style)
     if program:
         write_bytes(program, cut.result.program.encode("ascii"))
     if sheet:
@@ -347,7 +376,7 @@ def _cut(
 
         tape = Path(output).name if output != "-" else "-"
         drawing = Path(path).name if path != "-" else "-"
-        write_sheet(cut.result, Facts(drawing, tape, cut.account.units), sheet, form)
+        write_sheet(cut.result, Facts(drawing, tape, cut.account.units, job.place.scale), sheet, form)
     if save_job:
         write_bytes(save_job, job_files.encoded(written(job, drawn)))
     write_bytes(output, made)  # last: no tape where something else could not be written

@@ -16,6 +16,7 @@ from typing import Any
 from skg.errors import UserError
 from skg.job import values
 from skg.job.job import INTO, KINDS, ROMS, SMALL, Chosen, Job, MachineSetup, TapeForm
+from skg.job.placing import MIRRORS, Place
 from skg.job.read_options import OPEN, UNITS, Wishes
 from skg.job.wanted import LEAD_SHAPES, SIDES, Partial
 from skg.messages.finding import Finding
@@ -49,6 +50,12 @@ _MACHINE: dict[str, values.Check] = {
     "into": values.choice(INTO),
     "material": values.text,
     "thickness": values.text,
+}
+_PLACE: dict[str, values.Check] = {
+    "origin": values.origin,
+    "turn": values.number(-360.0, 360.0),
+    "mirror": values.choice(MIRRORS),
+    "scale": values.number(1 / values.MOST_SCALE, values.MOST_SCALE),
 }
 _DEFAULT: dict[str, values.Check] = {
     "cut": values.flag,
@@ -85,7 +92,7 @@ _TOP: dict[str, values.Check] = {
     "starts": values.places,
 }
 #: The tables of a file, with their keys; those of lists.
-TABLES = {"read": _READ, "machine": _MACHINE, "default": _DEFAULT, "tape": TAPE}
+TABLES = {"read": _READ, "machine": _MACHINE, "place": _PLACE, "default": _DEFAULT, "tape": TAPE}
 _LISTS = {"layer": _LAYER, "contour": _CONTOUR}
 #: The keys that a setup may have: what a shop keeps for one machine and wire.
 SETUP: dict[str, tuple[str, ...]] = {
@@ -200,6 +207,7 @@ def made(tables: Tables) -> dict[str, Any]:
     return {
         "read": Wishes(**{"open": None, **tables.get("read", {})}),
         "machine": MachineSetup(**tables.get("machine", {})),
+        "place": Place(**tables.get("place", {})),
         "default": Partial(**tables.get("default", {})),
         "tape": TapeForm(**tables.get("tape", {})),
     }
@@ -285,7 +293,7 @@ def _told(value: object) -> str:
 
 def to_data(job: Job) -> dict[str, Any]:
     """The job as plain data: what is not said is left out."""
-    parts = (("read", Wishes(open=None)), ("machine", MachineSetup()), ("tape", TapeForm()))
+    parts = (("read", Wishes(open=None)), ("machine", MachineSetup()), ("place", Place()), ("tape", TapeForm()))
     said = {
         key: {name: value for name, value in vars(getattr(job, key)).items() if value != getattr(usual, name)}
         for key, usual in parts

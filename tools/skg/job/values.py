@@ -8,6 +8,7 @@ from math import inf
 from pathlib import Path
 from typing import Any
 
+from skg.job.placing import ORIGINS
 from skg.messages.finding import Phrase
 
 Check = Callable[[object], Any]
@@ -20,6 +21,8 @@ LEAST_FEED = 0.001
 LEAST_FIT = 1e-5
 #: No contour has more tabs.
 MOST_TABS = 50
+#: No part is cut more times larger or smaller than it is drawn.
+MOST_SCALE = 1000.0
 #: The board's RAM, KiB.
 RAM = 2, 56
 #: No place is farther from the origin, no length longer, mm: a tape ends there.
@@ -123,6 +126,16 @@ def place(value: object) -> tuple[float, float]:
     """Check a place, [x, y]."""
     x, y = _numbers(value, 2, number(), "value-place")
     return x, y
+
+
+def origin(value: object) -> str | tuple[float, float]:
+    """Check what becomes 0, 0: a place, or a word for one of the part's box."""
+    if isinstance(value, str) and value in ORIGINS:
+        return value
+    try:
+        return place(value)
+    except Wrong:
+        raise Wrong(Phrase("value-origin", words=tuple(ORIGINS))) from None
 
 
 def size(value: object) -> tuple[float, float]:

@@ -61,6 +61,7 @@ _CARE = frozenset(
         "part-in-pieces",
         "parts-free",
         "route-given-up",
+        "scaled",
         "side-of-openings",
         "tabs-proud",
         "thin-wall",

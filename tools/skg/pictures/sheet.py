@@ -77,11 +77,12 @@ _INK, _WIRE, _MARK, _GREY = "#000000", "#0072b2", "#d55e00", "#777777"
 
 @dataclass(frozen=True)
 class Facts:
-    """Facts for the sheet's foot: the drawing's name, the tape's, the units."""
+    """Facts for the sheet's foot: the drawing's name, the tape's, the units, how many times as large it is cut."""
 
     drawing: str
     tape: str
     units: str
+    scale: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -483,8 +484,9 @@ class SetupSheet:
         blocks = Phrase("count-blocks", count=len(result.tape.blocks))
         without = Phrase("sheet-without-room", count=left_out) if left_out else None
         ratio = f"{self.scale:.4g}:1" if self.scale >= 1 else f"1:{1 / self.scale:.4g}"
+        drawing = facts.drawing if facts.scale == 1 else f"{short(facts.scale)} × {facts.drawing}"
         columns = (
-            (("drawing", facts.drawing), ("tape", facts.tape), ("date", date.today().isoformat()), ("scale", ratio)),
+            (("drawing", drawing), ("tape", facts.tape), ("date", date.today().isoformat()), ("scale", ratio)),
             (
                 ("size", f"{short(self.high[0] - self.low[0])} x {short(self.high[1] - self.low[1])} mm"),
                 ("units", facts.units),

@@ -9,24 +9,28 @@ The command line and the page make a `Job` and call these.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from hashlib import sha256
 
+from skg.checking.as_drawn import as_drawn
 from skg.checking.check_drawn import NEAR, Named, off_drawn
 from skg.cutting.ladder import CutResult, make
 from skg.cutting.progress import Progress, in_silence
 from skg.cutting.report import findings
 from skg.errors import UserError
 from skg.geometry.contour import Contour
+from skg.geometry.placement import Placement
 from skg.geometry.plane import XY, shifted
 from skg.job.job import Chosen, Job
 from skg.job.matching import Known, Matches
 from skg.job.read_options import Wishes
+from skg.job.values import LEAST_FIT
 from skg.job.wanted import Partial, Wanted
 from skg.messages.finding import Finding, Phrase
+from skg.pipeline import placing
 from skg.planning.nesting import Nesting
-from skg.planning.plan import plan_nested
+from skg.planning.plan import Asked, plan_nested
 from skg.planning.planned import PlannedContour
 from skg.reading.account import Account
 from skg.reading.read import Reading, read
@@ -46,6 +50,8 @@ class DrawnJob:
     nesting: Nesting
     known: Known
     matches: Matches
+    #: The nesting as it lies on the machine, of the placement that was asked for last.
+    _placed: dict[Placement, Nesting] = field(default_factory=dict, compare=False)
 
     @property
     def contours(self) -> list[Contour]:
@@ -65,6 +71,20 @@ class DrawnJob:
             if match.number is not None
         }
 
+    def placement(self, job: Job) -> Placement:
+        """Where the drawing lies on the machine; a `UserError` where that is too far away."""
+        cut = [contour for contour, want in zip(self.contours, wanted_of(job, self), strict=True) if want.cut]
+        return placing.placement_of(job.place, cut, self.matches.shift)
+
+    def placed(self, placement: Placement) -> Nesting:
+        """The contours on the machine."""
+        if placement.is_nothing:
+            return self.nesting
+        if placement not in self._placed:
+            self._placed.clear()
+            self._placed[placement] = placing.placed_nesting(self.nesting, placement)
+        return self._placed[placement]
+
 
 def _moved(chosen: Chosen, by: XY) -> Chosen:
     """A chosen contour with its start hole, its entry and its tabs elsewhere."""
@@ -77,11 +97,13 @@ def _moved(chosen: Chosen, by: XY) -> Chosen:
 
 @dataclass(frozen=True)
 class CutDrawing:
-    """A checked tape with its report. `account`: that of the drawing, with what was left out among what is not cut."""
+    """A checked tape with its report. `account`: that of the drawing, with what was left out among what is not cut;
+    `placement`: where the drawing lies on the machine."""
 
     result: CutResult
     account: Account
     findings: list[Finding]
+    placement: Placement = Placement()
 
 
 def open_drawing(job: Job, data: bytes, name: str = "") -> DrawnJob:
@@ -94,8 +116,10 @@ def open_drawing(job: Job, data: bytes, name: str = "") -> DrawnJob:
 
 
 def wishes_of(job: Job) -> Wishes:
-    """Options for reading the drawing: open contours are refused by default where the wire runs beside contours."""
-    return replace(job.read, open=job.read.open or ("refuse" if job.is_beside else "cut"))
+    """Options for reading the drawing: open contours are refused by default where the wire runs beside contours, and
+    curves that grow are fitted so much nearer."""
+    fit = max(job.read.fit_tolerance / max(1.0, job.place.scale), LEAST_FIT)
+    return replace(job.read, open=job.read.open or ("refuse" if job.is_beside else "cut"), fit_tolerance=fit)
 
 
 def wanted_of(job: Job, drawn: DrawnJob) -> list[Wanted]:
@@ -111,10 +135,24 @@ def plan_drawing(job: Job, drawn: DrawnJob) -> list[PlannedContour]:
     """The contours in the order in which they are cut. A contour that is lost, or that cannot be planned, is a
     `UserError`."""
     refuse_lost(job, drawn)
-    try:
-        return plan_nested(drawn.nesting, starts_of(job, drawn), wanted_of(job, drawn))
-    except UserError as error:
-        raise error.within(drawn.name) from None
+    return plan_placed(job, drawn, drawn.placement(job), wanted_of(job, drawn))
+
+
+def plan_placed(
+    job: Job,
+    drawn: DrawnJob,
+    placement: Placement,
+    wanted: list[Wanted],
+    before: dict[int, tuple[Asked, PlannedContour]] | None = None,
+) -> list[PlannedContour]:
+    """Plan contours on the machine; see `plan_nested`. `wanted`: wishes for each, with places of the drawing."""
+    on_machine = [
+        placing.placed_wanted(want, contour.is_closed, placement)
+        for contour, want in zip(drawn.contours, wanted, strict=True)
+    ]
+    starts = [placement.place(start) for start in starts_of(job, drawn)]
+    with placing.told_as_drawn(placement, drawn.name):
+        return plan_nested(drawn.placed(placement), starts, on_machine, before)
 
 
 def starts_of(job: Job, drawn: DrawnJob) -> list[XY]:
@@ -135,34 +173,40 @@ def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> C
     """Make the tape and check it; nothing is returned that is wrong."""
     progress("plan", 0, len(drawn.contours))
     routes = plan_drawing(job, drawn)
-    drawn.nesting.release()
-    try:
+    placement = drawn.placement(job)
+    drawn.placed(placement).release()
+    with placing.told_as_drawn(placement, drawn.name):
         result = make(routes, job.drawing, job.machine, progress)
-    except UserError as error:
-        raise error.within(drawn.name) from None
     left = {number: UNWANTED for number, want in enumerate(wanted_of(job, drawn)) if not want.cut}
     left |= {contour.number: WITHIN if contour.is_within else SMALL for contour in result.left}
     account = drawn.reading.account(left) if left else drawn.reading.report
-    result = _beside_file(result, drawn, account)
-    return CutDrawing(result, account, _findings(job, drawn, account, result))
+    result = _beside_file(result, job, drawn, account, placement)
+    return CutDrawing(result, account, _findings(job, drawn, account, result, placement), placement)
 
 
-def _beside_file(result: CutResult, drawn: DrawnJob, account: Account) -> CutResult:
+def _beside_file(result: CutResult, job: Job, drawn: DrawnJob, account: Account, placement: Placement) -> CutResult:
     """The tape compared with the lines of the file, too: it is as far off as its contours are at most, and these. Where
     these differ and no line of the report names the place, a `UserError`."""
+    scale = job.place.scale
     named = [Named(mend.place, mend.size) for mend in account.mends]
     for route in result.routes:
-        named += [Named(trim.place, trim.length) for trim in (*route.remarks.loops, *route.remarks.whiskers)]
-    off, place = off_drawn([route.contour for route in result.routes], drawn.reading.nominal, account.whole, named)
+        trims = (*route.remarks.loops, *route.remarks.whiskers)
+        named += [Named(placement.back.place(trim.place), trim.length / scale) for trim in trims]
+    contours = as_drawn([route.contour for route in result.routes], job.place, placement.origin)
+    off, place = off_drawn(contours, drawn.reading.nominal, account.whole, named)
     if off > NEAR:
         raise UserError(Finding("off-the-file", place=place, off=1000 * off).within(drawn.name))
-    return replace(result, checked=replace(result.checked, off=result.checked.off + off))
+    return replace(result, checked=replace(result.checked, off=result.checked.off + scale * off))
 
 
-def _findings(job: Job, drawn: DrawnJob, account: Account, result: CutResult) -> list[Finding]:
+def _findings(job: Job, drawn: DrawnJob, account: Account, result: CutResult, placement: Placement) -> list[Finding]:
     """The report."""
-    report = [*account.report(), *_matched(job, drawn)]
-    report += findings(result, job.machine.distance)
+    report = [*account.report(), *_matched(job, drawn), *placing.placed_findings(job.place, placement, account.size)]
+    # (start holes are drilled on the machine)
+    report += [
+        finding if finding.code == "order-of-cutting" else placing.as_drawn(finding, placement)
+        for finding in findings(result, job.machine.distance)
+    ]
     wanted = wanted_of(job, drawn)
     if stock := max((want.passes[-1] for want in wanted if want.cut), default=0.0):
         report.append(Finding("last-pass-leaves", stock=stock))
@@ -178,7 +222,7 @@ def _findings(job: Job, drawn: DrawnJob, account: Account, result: CutResult) ->
     if any(overlap.kind != "drawn twice" for overlap in account.overlaps):
         from skg.checking import split_parts
 
-        report += split_parts.findings(result.routes)
+        report += [placing.as_drawn(finding, placement) for finding in split_parts.findings(result.routes)]
     return report
 
 
@@ -208,7 +252,10 @@ def written(job: Job, drawn: DrawnJob) -> Job:
     )
     box = tuple(round(bound, 6) + 0.0 for bound in drawn.known.box)
     starts = tuple(shifted(start, drawn.matches.shift) for start in job.starts)
-    return replace(job, sha256=drawn.sha256, box=box, starts=starts, contours=contours)
+    place = job.place
+    if isinstance(place.origin, tuple):
+        place = replace(place, origin=shifted(place.origin, drawn.matches.shift))
+    return replace(job, sha256=drawn.sha256, box=box, place=place, starts=starts, contours=contours)
 
 
 def choose(drawn: DrawnJob, number: int, **wanted: object) -> Chosen:

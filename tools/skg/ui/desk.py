@@ -11,6 +11,7 @@ from typing import Any
 
 from skg.cutting.progress import Progress
 from skg.errors import UserError
+from skg.geometry.placement import Placement
 from skg.job import file as job_files
 from skg.job.job import Chosen, Job
 from skg.job.matching import Match
@@ -22,13 +23,13 @@ from skg.pipeline.steps import (
     DrawnJob,
     cut_drawing,
     open_drawing,
+    plan_placed,
     refuse_lost,
-    starts_of,
     wanted_of,
     wishes_of,
     written,
 )
-from skg.planning.plan import Asked, plan_nested
+from skg.planning.plan import Asked
 from skg.planning.planned import PlannedContour
 from skg.ui import shown
 from skg.ui.json_text import encoded, told
@@ -54,6 +55,8 @@ class Desk:
         #: The drawing's plan before, and its form for the page.
         self._before: dict[int, tuple[Asked, PlannedContour]] = {}
         self._plans = shown.Plans()
+        #: The placement of that plan: where the drawing lies on the machine.
+        self._placement = Placement()
         #: Contours that were found again too far from where they were, without their settings, and how far, mm.
         self._doubts: dict[Chosen, float] = {}
         #: The error while no drawing is open.
@@ -100,7 +103,11 @@ class Desk:
         for number in numbers:
             if not 0 <= number < len(drawn.contours):
                 raise UserError(Finding("page-no-contour", number=number))
-        paths = {str(number): shown.ways(self._routes[number]) for number in numbers if number in self._routes}
+        paths = {
+            str(number): shown.ways(self._routes[number], self._placement)
+            for number in numbers
+            if number in self._routes
+        }
         return encoded(paths)
 
     def job(self) -> bytes:
@@ -129,7 +136,7 @@ class Desk:
             path = str(Path(folder) / f"sheet.{form}")
             before, speech.language = speech.language, language or speech.language
             try:
-                write_sheet(cut.result, Facts(job.drawing, tape, cut.account.units), path, form)
+                write_sheet(cut.result, Facts(job.drawing, tape, cut.account.units, job.place.scale), path, form)
             finally:
                 speech.language = before
             return Path(path).read_bytes()
@@ -187,9 +194,14 @@ class Desk:
         tried, routes, errors = list(wanted), [], []
         with _noted(errors):
             refuse_lost(self._job, self._drawn)
+        placement = Placement()
+        with _noted(errors):
+            placement = self._drawn.placement(self._job)
+        if placement != self._placement:
+            self._placement, self._before, self._plans = placement, {}, shown.Plans()
         while not routes and len(errors) < _MOST_ERRORS:
             with _noted(errors):
-                routes = plan_nested(self._drawn.nesting, starts_of(self._job, self._drawn), tried, self._before)
+                routes = plan_placed(self._job, self._drawn, placement, tried, self._before)
                 break
             number = errors[-1].contour
             if number is None:
@@ -198,7 +210,7 @@ class Desk:
             free = replace(tried[number], start=None, entry=None, order=None)
             tried[number] = free if free != tried[number] else replace(free, cut=False)
         self._routes = {route.number: route for route in routes}
-        return self._plans.written(routes, wanted, errors)
+        return self._plans.written(routes, wanted, errors, placement)
 
 
 @contextmanager

@@ -16,6 +16,7 @@ import shapely
 from skg.errors import UserError
 from skg.geometry.contour import Edge
 from skg.geometry.offset import NoRoom
+from skg.geometry.placement import Placement
 from skg.geometry.plane import XY
 from skg.job.job import Chosen
 from skg.job.wanted import Wanted
@@ -23,6 +24,7 @@ from skg.messages.catalogue import LANGUAGES
 from skg.messages.finding import Finding, Phrase
 from skg.messages.render import Medium, Speech, text
 from skg.messages.severity import Severity
+from skg.pipeline.placing import as_drawn
 from skg.pipeline.steps import CutDrawing, DrawnJob
 from skg.planning.nesting import findings
 from skg.planning.planned import PlannedContour
@@ -161,20 +163,29 @@ class Plans:
         self._told: list[str] = []
 
     def written(
-        self, routes: Sequence[PlannedContour], wanted: Sequence[Wanted], errors: Sequence[UserError]
+        self,
+        routes: Sequence[PlannedContour],
+        wanted: Sequence[Wanted],
+        errors: Sequence[UserError],
+        placement: Placement,
     ) -> tuple[bytes, bytes]:
-        """The plan of all contours, and the same with those alone that were told otherwise the last time."""
+        """The plan of all contours, and the same with those alone that were told otherwise the last time. `placement`:
+        where the drawing lies on the machine; all is told in its own places."""
         turns = {route.number: (turn, route) for turn, route in enumerate(routes, 1)}
         why = {error.contour: told(error) for error in errors if error.contour is not None}
         contours = []
         for number, want in enumerate(wanted):
             turn, route = turns.get(number, (None, None))
-            contours.append(f'"{number}":{{"number":{turn or "null"},{self._contour(number, route, want, why)}')
+            plan = self._contour(number, route, want, why, placement)
+            contours.append(f'"{number}":{{"number":{turn or "null"},{plan}')
         changed = [contour for contour, before in zip_longest(contours, self._told) if contour and contour != before]
         self._told = contours
         data = {
             "order": [route.number for route in routes],
-            "said": [line(entry) for entry in findings((route.turn, route.remarks.around) for route in routes)],
+            "said": [
+                line(as_drawn(entry, placement))
+                for entry in findings((route.turn, route.remarks.around) for route in routes)
+            ],
             "error": told(errors[0]) if errors else None,
         }
         whole, part = (
@@ -182,12 +193,14 @@ class Plans:
         )
         return whole, part
 
-    def _contour(self, number: int, route: PlannedContour | None, want: Wanted, why: dict[int, dict]) -> str:
+    def _contour(
+        self, number: int, route: PlannedContour | None, want: Wanted, why: dict[int, dict], placement: Placement
+    ) -> str:
         """A contour's plan without its place in the order, and without the brace before it."""
         wrong = why.get(number)
         known = self._known.get(number)
         if known is None or known[0] is not route or known[1:3] != (want, wrong):
-            plan = (planned(route) if route else _LEFT) | {"error": wrong}
+            plan = (planned(route, placement) if route else _LEFT) | {"error": wrong}
             is_slug = route is not None and route.contour.is_closed and route.frees == "slug"
             text = f'{in_json(plan)[1:-1].decode()},"values":{_values(want, is_slug)}}}'
             known = self._known[number] = route, want, wrong, text
@@ -204,34 +217,37 @@ def _values(want: Wanted, is_slug: bool) -> str:
     return in_json(values | {"tab": want.slug_tab if is_slug else want.tab, "tabs": tabs}).decode()
 
 
-def planned(route: PlannedContour) -> dict[str, Any]:
-    """The plan of a contour, without the wishes for it."""
-    edge = route.chain[0]
+def planned(route: PlannedContour, placement: Placement) -> dict[str, Any]:
+    """The plan of a contour, without the wishes for it, in the places of the drawing."""
+    back = placement.back
+    # (R is to the right of the way, and its distance that of the drawing)
+    times = (-1 if back.is_mirror else 1) * back.scale
+    edge = back.edge(route.chain[0])
     tabs = [
-        [place(edges[0].start), place(edges[-1].end), place(tab.before), place(tab.behind)]
+        [place(back.place(p)) for p in (edges[0].start, edges[-1].end, tab.before, tab.behind)]
         for (_, edges), tab in zip(route.spans, route.tabs.each, strict=True)
     ]
     return {
         "cut": True,
-        "hole": place(route.start),
-        "entry": place(route.entry),
+        "hole": place(back.place(route.start)),
+        "entry": place(back.place(route.entry)),
         "tab": tabs[-1][0] if tabs else None,
         "tabs": tabs,
         "direction": round(edge.direction(), _ANGLE),
-        "radius": round(route.offset, _LENGTH),
-        "passes": [round(r, _LENGTH) for r in route.passes],
+        "radius": round(times * route.offset, _LENGTH),
+        "passes": [round(times * r, _LENGTH) for r in route.passes],
         "lead_arc": route.is_arc and route.is_square,
     }
 
 
-def ways(route: PlannedContour) -> list[list[list[Any]]]:
-    """The ways of the wire's middle along a contour, with those from its start holes and to them; none where the wire
-    does not get around it."""
+def ways(route: PlannedContour, placement: Placement) -> list[list[list[Any]]]:
+    """The ways of the wire's middle along a contour, with those from its start holes and to them, in the places of the
+    drawing; none where the wire does not get around it."""
     if route.contour.is_closed and any(route.passes) and not route.rung.wire:
         with suppress(NoRoom):
-            return ways(route.along_wire())
+            return ways(route.along_wire(), placement)
         return []
-    return [edges(_wire(run, route)) for run in route.runs()]
+    return [edges(map(placement.back.edge, _wire(run, route))) for run in route.runs()]
 
 
 def _wire(run: Run, route: PlannedContour) -> Iterator[Edge]:
@@ -269,8 +285,8 @@ def _beside(run: Run) -> list[Edge]:
 
 
 def result(cut: CutDrawing) -> dict[str, Any]:
-    """The result of a cut."""
-    made = cut.result
+    """The result of a cut. `back`: the way from the machine to the drawing: a matrix's rows, what goes to what, mm."""
+    made, back = cut.result, cut.placement.back
     return {
         "lines": [line(entry) for entry in cut.findings],
         "blocks": len(made.tape.blocks),
@@ -279,4 +295,5 @@ def result(cut: CutDrawing) -> dict[str, Any]:
         "seconds": round(made.seconds, 1),
         "off_um": round(1000 * made.checked.off, 3),
         "start": place(made.routes[0].start),
+        "back": [*back.matrix, *back.origin, *back.at],
     }

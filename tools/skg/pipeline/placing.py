@@ -1,0 +1,117 @@
+"""A job's drawing on the machine: its contours, start holes and settings as they lie there, and messages back."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import Any
+
+from skg.errors import UserError
+from skg.geometry.contour import Contour
+from skg.geometry.edge_arrays import boxes_of
+from skg.geometry.placement import Placement
+from skg.geometry.plane import XY
+from skg.job.placing import ORIGINS, Place
+from skg.job.wanted import Wanted
+from skg.messages.finding import Finding, Phrase
+from skg.planning.nesting import Nesting
+from skg.reading.read import FARTHEST
+
+#: Values of a message that are a place, and that are places.
+_PLACE, _PLACES = frozenset({"place", "start", "end"}), frozenset({"places"})
+#: Pairs of values that are a place.
+_PAIRS = (("x", "y"), ("u", "v"))
+
+
+def placement_of(place: Place, cut: Sequence[Contour], shift: XY) -> Placement:
+    """The placement of a drawing of which some contours are cut. `shift`: how far all of it has moved since the job was
+    written, mm. A part that would lie too far away is a `UserError`."""
+    if place == Place():
+        return Placement()
+    turned = Placement.of(place.turn, place.mirror, place.scale)
+    boxes, _ = boxes_of([turned.contour(contour) for contour in cut]) if cut else ([], [])
+    if isinstance(place.origin, str) and cut:
+        wide, high = ORIGINS[place.origin]
+        (left, low), (right, top) = boxes[:, :2].min(0).tolist(), boxes[:, 2:].max(0).tolist()
+        origin = turned.back.place((left + wide * (right - left), low + high * (top - low)))
+    else:
+        x, y = place.origin if isinstance(place.origin, tuple) else (-shift[0], -shift[1])
+        origin = x + shift[0] + 0.0, y + shift[1] + 0.0
+    made = replace(turned, origin=tuple(round(ordinate, 9) + 0.0 for ordinate in origin))
+    if cut:
+        x, y = turned.place(made.origin)
+        if (far := max(abs(boxes - [x, y, x, y]).max(0).tolist())) >= FARTHEST:
+            raise UserError(Finding("placed-too-far", far=far / 1000, most=FARTHEST / 1000))
+    return made
+
+
+def placed_nesting(nesting: Nesting, placement: Placement) -> Nesting:
+    """Contours on the machine: what lies in what is as it is drawn."""
+    around = {
+        number: outer._replace(gap=outer.gap and outer.gap._replace(place=placement.place(outer.gap.place)))
+        for number, outer in nesting.around.items()
+    }
+    return Nesting([placement.contour(contour) for contour in nesting.contours], nesting.depths, around)
+
+
+def placed_wanted(wanted: Wanted, is_closed: bool, placement: Placement) -> Wanted:
+    """Settings of a contour on the machine. In a mirror the wire is on the other side of an open line's direction."""
+    if placement.is_nothing:
+        return wanted
+    tabs = wanted.tabs if isinstance(wanted.tabs, int) else tuple(map(placement.place, wanted.tabs))
+    side = wanted.side
+    if placement.is_mirror and not is_closed:
+        side = {"left": "right", "right": "left"}.get(side, side)
+    start, entry = (place and placement.place(place) for place in (wanted.start, wanted.entry))
+    return replace(wanted, tabs=tabs, side=side, start=start, entry=entry)
+
+
+def as_drawn(finding: Phrase, placement: Placement) -> Phrase:
+    """A message on what is on the machine, with the places of the drawing."""
+    if placement.is_nothing:
+        return finding
+    back = placement.back.place
+    values = {name: _value(name, value, placement) for name, value in finding.values}
+    for x, y in _PAIRS:
+        if x in values and y in values:
+            values[x], values[y] = back((values[x], values[y]))
+    if not isinstance(finding, Finding):
+        return Phrase(finding.code, **values)
+    place = values.pop("place", finding.place and back(finding.place))
+    return Finding(finding.code, contour=finding.contour, place=place, **values).within(*finding.source)
+
+
+def _value(name: str, value: Any, placement: Placement) -> Any:  # noqa: ANN401
+    if isinstance(value, Phrase):
+        return as_drawn(value, placement)
+    if name in _PLACE and isinstance(value, tuple):
+        return placement.back.place(value)
+    if name in _PLACES:
+        return tuple(map(placement.back.place, value))
+    if isinstance(value, tuple):
+        return tuple(_value("", item, placement) for item in value)
+    return value
+
+
+@contextmanager
+def told_as_drawn(placement: Placement, *source: str) -> Iterator[None]:
+    """Give what is refused within the places of the drawing, and where it comes from."""
+    try:
+        yield
+    except UserError as error:
+        error.finding = as_drawn(error.finding, placement)
+        raise error.within(*source) from None
+
+
+def placed_findings(place: Place, placement: Placement, size: XY) -> list[Finding]:
+    """Report where the part lies. `size`: its width and height as it is drawn, mm."""
+    if place == Place():
+        return []
+    mirror = Phrase("placed-mirror-x" if place.mirror == "x" else "placed-mirror-y") if place.mirror else None
+    turn = Phrase("placed-turned", turn=place.turn) if place.turn else None
+    report = [Finding("placed", origin=placement.origin, mirror=mirror, turn=turn)]
+    if place.scale != 1:
+        width, height = (side * place.scale for side in size)
+        report.append(Finding("scaled", scale=place.scale, width=width, height=height))
+    return report
