@@ -1,4 +1,4 @@
-"""Lines that somebody puts in between two ends of a drawing, kept in the job; and walls that two cuts leave thin."""
+"""Repairs that somebody asks for: bridges, corners, lines left, kept in the job; and walls that two cuts leave thin."""
 
 from __future__ import annotations
 
@@ -52,9 +52,69 @@ def test_a_bridge_closes_an_outline_and_is_kept(tmp_path: Path) -> None:
     assert joined["gap"] == pytest.approx(0.4)
     # the drawing is saved anew, its ends a little further on, or somewhere else
     assert open_drawing(asked, drawing(tmp_path, 0.3)).contours[0].is_closed
-    lost = open_drawing(job(open="cut", bridges=(GAP,)), drawing(tmp_path, 7))
-    assert "bridge-lost" in {finding.code for finding in lost.reading.report.report()}
+    assert open_drawing(asked, drawing(tmp_path, 7)).contours[0].is_closed
+    lost = open_drawing(job(open="cut", bridges=((0, 0, 0, 0.7),)), drawing(tmp_path, 7))
+    assert "repair-lost" in {finding.code for finding in lost.reading.report.report()}
     assert not lost.contours[0].is_closed
+
+
+def crossed(folder: Path, by: float = 0.0) -> bytes:
+    """A drawing of one outline: two ends run 1 and 2 mm past their corner, two end 0.6 and 0.8 mm before theirs, an arc
+    runs past a line; a stray line beside it, a line within it."""
+    page = ezdxf.new()
+    page.units = units.MM
+    space = page.modelspace()
+    for (x, y), (u, v) in (
+        ((-2, 0), (59.4, 0)), ((60, 0.8), (60, 30)), ((60, 30), (40, 40)), ((40, 40), (9, 40)), ((0, 30), (0, -1)),
+        ((80, 5), (90, 8)), ((90, 8), (95, 8)),
+    ):  # fmt: skip
+        space.add_line((x + by, y), (u + by, v))
+    # (from the left end to beyond the upper line)
+    space.add_arc((10 + by, 30), 10, 80, 180)
+    path = folder / "part.dxf"
+    page.saveas(path)
+    return path.read_bytes()
+
+
+def test_corners_are_made_and_strays_are_left(tmp_path: Path) -> None:
+    """All that is offered, asked for: one closed outline, each place named with its size, the tape on the lines."""
+    data = crossed(tmp_path)
+    offered = open_drawing(job(open="cut"), data).reading.report.repairs
+    corners = [repair for repair in offered if repair.kind == "corner"]
+    assert [round(repair.size, 2) for repair in corners] == [0.8, 1.75, 2.0]
+    # (no line is put in between ends that run past their crossing)
+    assert [round(repair.size, 2) for repair in offered if repair.kind == "bridge"] == [1.0, 15.3]
+    stray = max((repair for repair in offered if repair.kind == "stray"), key=lambda each: each.places[0])
+    asked = job(corners=tuple(repair.asked for repair in corners), strays=(stray.asked,))
+    asked = job_files.decoded(job_files.encoded(asked), "part.job.toml")
+    drawn = open_drawing(asked, data)
+    (contour,) = drawn.contours
+    assert contour.is_closed and len(contour.edges) == 6
+    cut = cut_drawing(asked, drawn)
+    assert cut.result.checked.off < 0.004
+    made = [finding for finding in cut.findings if finding.code == "corner-made"]
+    sizes = {tuple(round(ordinate, 3) + 0.0 for ordinate in finding.place): finding for finding in made}
+    assert sizes.keys() == {(0, 0), (60, 0), (10, 40)}
+    assert (sizes[0, 0]["longer"], sizes[0, 0]["shorter"]) == pytest.approx((0, 2))
+    assert (sizes[60, 0]["longer"], sizes[60, 0]["shorter"]) == pytest.approx((0.8, 0))
+    (left,) = [finding for finding in cut.findings if finding.code == "stray-left"]
+    assert left["length"] == pytest.approx(15.44, abs=0.01)
+    assert sum(layer.left for layer in cut.account.layers) == 2
+    # saved anew, elsewhere: all are found again
+    again = open_drawing(asked, crossed(tmp_path, 25))
+    assert len(again.contours) == 1 and again.contours[0].is_closed
+
+
+def test_a_repair_that_is_not_named_is_refused(tmp_path: Path) -> None:
+    """The check sees that a corner is not as it is drawn."""
+    data = crossed(tmp_path)
+    offered = open_drawing(job(open="cut"), data).reading.report.repairs
+    asked = job(open="leave", corners=tuple(repair.asked for repair in offered if repair.kind == "corner"))
+    drawn = open_drawing(asked, data)
+    drawn.reading.begun.mends.clear()
+    with pytest.raises(UserError) as refused:
+        cut_drawing(asked, drawn)
+    assert refused.value.finding.code == "off-the-file"
 
 
 @pytest.mark.parametrize("bad", ["[[1, 2, 3]]", "[1, 2, 3, 4]", '"x"', "[[1, 2, 3, inf]]"])

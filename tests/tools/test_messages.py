@@ -29,7 +29,7 @@ CATALOGUES = {
 }
 #: Codes that are put together: a page's labels, words for settings' values.
 MADE = re.compile(
-    r"(label|value|kind|count|side|error|sheet|meaning|tool)-|(care|plain|.*-separator|setting-in-job|setting-on-page|field-on-page)$"
+    r"(label|value|kind|count|repair|side|error|sheet|meaning|tool)-|(care|plain|.*-separator|setting-in-job|setting-on-page|field-on-page)$"
 )
 
 

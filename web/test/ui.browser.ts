@@ -804,7 +804,7 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await shot(page, "open-end");
     await page.getByRole("button", { name: "Bridge 0.8 mm" }).click();
     await page.waitForSelector("#decide", { state: "hidden" });
-    await says(page, "#bridge-count", "1");
+    await says(page, "#repair-count", "1");
     await page.waitForFunction(() =>
       [...document.querySelectorAll("#tree .title")].some(({ textContent }) => textContent === "outline 60 × 40"),
     );
@@ -831,6 +831,46 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await click(page, [60, 11]);
     await says(page, "#measured", /angle 90\.000°$/);
     assert.deepEqual(await axe(page), []);
+    await context.close();
+  });
+
+  test("ends go to their crossing, a stray line is left, by a click each or all; taken back, undone, kept in the job", async () => {
+    // two corners run past, one is short of; a stray line beside the outline
+    const lines = [line(-2, 0, 59, 0), line(60, 1, 60, 42), line(61, 40, 0, 40), line(0, 42, 0, -1), line(70, 5, 75, 9)];
+    const { url, file } = await start("crossed.dxf", dxf(...lines));
+    const { page, context } = await visit(url, { viewport: LOW });
+    await drawn(page);
+    await type(page, "field-wire", "0.2");
+    await page.waitForSelector("#decide.wrong");
+    await page.getByRole("button", { name: "All 4 to their crossings" }).click();
+    await says(page, "#repair-count", "4");
+    // what is left to decide is the stray line
+    await page.getByRole("button", { name: "Leave this line" }).click();
+    await page.waitForSelector("#decide", { state: "hidden" });
+    await says(page, "#repair-count", "5");
+    await page.waitForFunction(() => document.querySelector("#tree")?.textContent?.includes("outline 60 × 40"));
+    await shot(page, "repaired");
+    await settled(page);
+    await page.click("#no-repairs");
+    await settled(page);
+    await page.waitForSelector("#decide.wrong");
+
+    await page.getByRole("button", { name: "To their crossing, 1 mm" }).click();
+    await says(page, "#repair-count", "1");
+    await settled(page);
+    await page.click("#undo");
+    await page.waitForSelector("#repairs", { state: "hidden" });
+    await page.click("#undo");
+    await says(page, "#repair-count", "5");
+    await cut(page);
+    const codes = await page.evaluate(() => document.getElementById("report")?.textContent ?? "");
+    assert.equal(codes.match(/brought to their crossing/g)?.length, 4);
+    await page.click("#save");
+    await page.click("#save-yes");
+    await message(page, /Saved beside/);
+    const job = file("crossed.job.toml").toString();
+    assert.equal(job.match(/corners = (.*)/)?.[1]?.match(/\[[^[]+?\]/g)?.length, 4);
+    assert.match(job, /strays = \[\[72\.5, 7\.0\]\]/);
     await context.close();
   });
 

@@ -37,7 +37,9 @@ _READ: dict[str, values.Check] = {
     "fit_tolerance": values.number(values.LEAST_FIT),
     "encoding": values.text,
     "layers": values.names,
-    "bridges": values.bridges,
+    "bridges": values.pairs,
+    "corners": values.pairs,
+    "strays": values.places,
 }
 _MACHINE: dict[str, values.Check] = {
     "wire": values.number(0.0, 2 * values.MOST_OFFSET, is_open=True),

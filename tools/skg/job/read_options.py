@@ -30,7 +30,8 @@ class Wishes:
     one of `UNITS`, None: what the file says. `tolerance`: ends no further apart are one corner, mm. `fit_tolerance`:
     how near FIT shall come to splines and ellipses, mm. `open`: one of `OPEN`, what becomes of open contours, None: not
     chosen. `encoding`: of a DXF file's text, None: what the file says, else guessed. `bridges`: lines that are put in
-    between two ends, x and y of each, mm.
+    between two ends, x and y of each, mm. `corners`: pairs of ends that go to where they cross; `strays`: places on
+    open lines that are left.
     """
 
     layers: tuple[str, ...] = ()
@@ -41,6 +42,8 @@ class Wishes:
     open: str | None = "cut"
     encoding: str | None = None
     bridges: tuple[tuple[float, float, float, float], ...] = ()
+    corners: tuple[tuple[float, float, float, float], ...] = ()
+    strays: tuple[tuple[float, float], ...] = ()
 
     def check_layers(self, known: Iterable[str]) -> None:
         """Refuse (`UserError`) a layer that a drawing with these does not have."""

@@ -166,13 +166,13 @@ def places(value: object) -> tuple[tuple[float, float], ...]:
     return tuple(map(place, value))
 
 
-def bridges(value: object) -> tuple[tuple[float, float, float, float], ...]:
-    """Check a list of lines, [x, y, x, y]."""
+def pairs(value: object) -> tuple[tuple[float, float, float, float], ...]:
+    """Check a list of pairs of places, [x, y, x, y]."""
     if not isinstance(value, list | tuple):
-        raise Wrong(Phrase("value-bridges"))
+        raise Wrong(Phrase("value-pairs"))
     lines: dict[tuple[float, float, float, float], None] = {}
     for line in value:
-        x, y, u, v = _numbers(line, 4, number(), "value-bridges")
+        x, y, u, v = _numbers(line, 4, number(), "value-pairs")
         lines[x, y, u, v] = None
     return tuple(lines)
 

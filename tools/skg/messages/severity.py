@@ -27,7 +27,7 @@ class Severity(Enum):
 
 _CARE = frozenset(
     {
-        "bridge-lost",
+        "repair-lost",
         "page-in-dots",
         "contour-not-cut",
         "drawing-changed",

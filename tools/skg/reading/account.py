@@ -110,6 +110,18 @@ class Mend:
 
 
 @dataclass(frozen=True)
+class Repair:
+    """Something that may be asked for to close outlines, see `skg.reading.repairs`. `places`: the ends that it is
+    about, mm; `asked`: what the wishes have of it, places in the file; `size`: the line that is put in, how much longer
+    or shorter an edge becomes at most, the length of what is left, mm."""
+
+    kind: str
+    places: tuple[XY, XY]
+    asked: tuple[float, ...]
+    size: float
+
+
+@dataclass(frozen=True)
 class Overlap:
     """Two edges on each other. `kind`: "drawn twice", "overlap", "touch" or "cross"; `place` in mm."""
 
@@ -126,7 +138,7 @@ class Account:
     guessed beside that. `factor`: mm in one unit of the file. `page`: the sides of an SVG's page in dots, if it does
     not tell its units. `low`, `high`: the box around the contours, mm. `layers`: the sums of all layers. `rest`:
     entities at junctions, of which (some of) the edges belong to no closed outline. `findings`: what else there is to
-    say. `mends`: where what is cut is not what is drawn; `whole`: numbers
+    say. `mends`: where what is cut is not what is drawn; `repairs`: what could be asked for; `whole`: numbers
     of the entities that are cut, all of each, and whether by what they are drawn on.
     """
 
@@ -149,6 +161,7 @@ class Account:
     findings: list[Finding] = field(default_factory=list)
     page: XY | None = None
     mends: list[Mend] = field(default_factory=list)
+    repairs: list[Repair] = field(default_factory=list)
     whole: dict[int, bool] = field(default_factory=dict)
 
     @property

@@ -153,6 +153,14 @@ def _near_origin(reading: Reading) -> Reading:
     nominal, unasked = ([edge.shifted(by) for edge in group] for group in (reading.nominal, reading.unasked))
     written = [replace(text, place=shifted(text.place, by)) for text in reading.written]
     report.mends = [replace(mend, place=shifted(mend.place, by)) for mend in report.mends]
+    report.open_ends = [
+        replace(end, place=shifted(end.place, by), other=end.other and shifted(end.other, by))
+        for end in report.open_ends
+    ]
+    report.repairs = [
+        replace(repair, places=(shifted(repair.places[0], by), shifted(repair.places[1], by)))
+        for repair in report.repairs
+    ]
     seen: dict[str, Any] = {"nominal": nominal, "unasked": unasked, "written": written}
     return replace(reading, contours=contours, starts=starts, others=others, opened=opened, **seen)
 

@@ -9,13 +9,11 @@ from dataclasses import replace
 from math import inf
 from typing import Any
 
-import shapely
-
 from skg.errors import UserError
 from skg.geometry.arrays import Floats
 from skg.geometry.contour import Contour, Edge
 from skg.geometry.edge_arrays import boxes_of
-from skg.geometry.plane import XY, distance
+from skg.geometry.plane import XY, distance, shifted
 from skg.job.read_options import MEET, Wishes
 from skg.messages.finding import Finding, Phrase
 from skg.reading.account import (
@@ -31,25 +29,24 @@ from skg.reading.account import (
     by_layer,
     first_places,
 )
-from skg.reading.chain import Chains, chain
+from skg.reading.chain import Chains, chain, chained_again
 from skg.reading.meetings import Relations, lying_on, nearest, relations
 from skg.reading.overlaps import without_overlaps
 from skg.reading.overruns import Overrun, without_overruns
+from skg.reading.repairs import lost, possible, repaired, without_strays
 
 #: Why an edge is not cut.
 SHORT, DOUBLE, JUNCTION = Phrase("reason-short"), Phrase("reason-twice"), Phrase("reason-junction")
 DASHED, AXIS = Phrase("reason-dashed"), Phrase("reason-axis")
 SMALL, WITHIN = Phrase("reason-no-room"), Phrase("reason-within")
 UNWANTED = Phrase("reason-unwanted")
-PAST, OPENED = Phrase("reason-past"), Phrase("reason-of-open")
+PAST, OPENED, STRAY = Phrase("reason-past"), Phrase("reason-of-open"), Phrase("reason-stray")
 #: Reasons that are no loss: short or doubled edges are cut with their neighbours, overruns are reported by themselves.
 _WITH_OTHERS = (SHORT, DOUBLE, PAST)
 #: Reasons why edges are left unasked; reported if these are longer than this part of the cut edges.
 _UNASKED, _MUCH = (JUNCTION, DASHED, AXIS), 0.1
 #: Ends past a corner whose places a line of the report names.
 _PLACES = 20
-#: The ends of a bridge are no farther from where they were, mm.
-_FOUND = 0.5
 #: Ends of what is left that are no further apart may be meant to meet, mm.
 _GAP = 0.1
 
@@ -116,6 +113,7 @@ class Selection:
         refused. Their ends go into the report."""
         opened = [contour for contour in contours if not contour.is_closed]
         self.report.open_ends = _open_ends(opened, self.content.edges, self.wishes.tolerance)
+        self.report.repairs = possible(self.opened, self.report.open_ends)
         if opened and self.wishes.open == "refuse":
             place = min(self.report.open_ends, key=lambda end: end.gap).place
             raise UserError(Finding("open-refused", count=len(opened), gap=self.report.first_gap(), place=place))
@@ -128,10 +126,12 @@ class Selection:
     def _chains(self) -> Chains:
         """All edges as contours; what is short, drawn twice or runs past a corner is accounted for."""
         fates, report, tolerance = self.fates, self.report, self.wishes.tolerance
-        bridges = list(self._bridges())
-        fates.parts.update(bridge.entity for bridge in bridges)
-        report.mends += [Mend("joined", bridge.at(0.5), bridge.length) for bridge in bridges]
-        chains = chain([*self.content.edges, *bridges], tolerance, self.styles)
+        mended = repaired(self.content.edges, self.wishes)
+        fates.parts.update(bridge.entity for bridge in mended.bridges)
+        fates.of_pieces(mended.pieces, PAST)
+        report.mends += mended.mends
+        report.findings += mended.findings
+        chains = chain([*mended.edges, *mended.bridges], tolerance, self.styles)
         if self.wishes.open != "all":
             chains, overlaps = without_overlaps(chains, tolerance, self.near, self.styles)
             fates.parts.update(piece.entity for piece, _ in overlaps.pieces)
@@ -141,6 +141,8 @@ class Selection:
             fates.of_edges([cut.piece for cut in cuts if cut.is_whole], PAST)
             report.findings += _past(cuts, self.content)
             report.mends += [Mend("past", cut.corner, cut.piece.length) for cut in cuts]
+        if self.wishes.strays:
+            chains = self._without_strays(chains, mended.by)
         fates.of_edges(chains.short, SHORT)
         fates.parts.update(join.bridge.entity for join in chains.joins if join.bridge)
         report.mends += [Mend("joined", join.place, join.width) for join in chains.joins]
@@ -148,19 +150,23 @@ class Selection:
         fates.doubles += [((edge,), twin) for edge, twin in chains.doubles]
         return chains
 
-    def _bridges(self) -> Iterator[Edge]:
-        """Lines between ends of the drawing that somebody has put in; one whose ends are not there is reported."""
-        if not self.wishes.bridges:
-            return
-        entities = {end: edge.entity for edge in self.content.edges for end in (edge.start, edge.end)}
-        ends = list(entities)
-        tree = shapely.STRtree(shapely.points(ends))
-        for x, y, u, v in self.wishes.bridges:
-            first, last = (ends[at] for at in tree.nearest(shapely.points([(x, y), (u, v)])).tolist())
-            if max(distance(first, (x, y)), distance(last, (u, v))) > _FOUND or first == last:
-                self.report.findings.append(Finding("bridge-lost", first=(x, y), last=(u, v), place=(x, y)))
-            else:
-                yield Edge(first, last, entity=entities[first])
+    def _without_strays(self, chains: Chains, by: XY) -> Chains:
+        """The chains without the open lines that somebody wants left; one that is not there is reported. `by`: how far
+        the drawing was moved since."""
+        opened = [contour for contour in chains.contours if not contour.is_closed]
+        runs = opened + chains.rest
+        kept, found = without_strays(runs, [shifted(place, by) for place in self.wishes.strays])
+        for place, number in found:
+            if number is None:
+                self.report.findings.append(lost("stray", place))
+        for number in sorted({number for _, number in found if number is not None}):
+            run = runs[number]
+            self.fates.of_edges(run.edges, STRAY)
+            length, place = sum(edge.length for edge in run.edges), run.edges[0].start
+            self.report.findings.append(Finding("stray-left", place=place, length=length))
+        if len(kept) == len(runs):
+            return chains
+        return chained_again(chains, [runs[number] for number in kept], [], self.wishes.tolerance, self.styles)[0]
 
     def _apart(self, chains: Chains) -> tuple[list[Contour], list[Contour]]:
         """The outlines, and what hangs together with others at junctions; what is repeated or is an axis is neither."""

@@ -36,6 +36,8 @@ from skg.ui.json_text import encoded, told
 
 #: The page's name in messages on its requests.
 _PAGE = "the page"
+#: Refusals of a drawing that can be read with its open lines.
+_OF_OPEN = ("open-refused", "outline-lost", "no-outline-gap", "no-outline-junctions")
 #: So many contours that cannot be planned are told one by one.
 _MOST_ERRORS = 20
 
@@ -156,8 +158,8 @@ class Desk:
         except UserError as error:
             self._why = error
             drawing: dict[str, Any] = {}
-            if self._seen is None and job.read.open in (None, "refuse"):
-                # (with its open lines, for who looks where they are)
+            if error.finding.code in _OF_OPEN:
+                # (with its open lines, for who looks where they are: a repair may have closed some)
                 with suppress(UserError):
                     self._seen = open_drawing(replace(job, read=replace(job.read, open="cut")), self._data)
                     drawing = shown.drawing(self._seen)

@@ -29,7 +29,7 @@ MOST_WAYS = 200
 SAVED = ("program", "job", "sheet", "tape")
 #: The drawing, as the page is told of it, of a file that could never be read.
 NOTHING: dict = {
-    **{name: [] for name in ("layers", "contours", "starts", "gaps", "report")},
+    **{name: [] for name in ("layers", "contours", "starts", "repairs", "report")},
     **{name: [0.0, 0.0] for name in ("size", "low")},
     **{name: "" for name in ("sha256", "units", "units_from")},
     "left": {"edges": [], "notes": []},

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from functools import lru_cache
@@ -37,8 +37,8 @@ from skg.wording import visible
 _LENGTH, _ANGLE = 4, 6
 #: A curve is shown by chords that leave it by no more, mm.
 _CURVE = 0.0005
-#: So many gaps between open ends are shown.
-_MOST_GAPS = 200
+#: So many repairs of a kind are offered.
+_MOST_REPAIRS = 200
 #: So many texts of a drawing are shown.
 _MOST_TEXTS = 2000
 #: The plan of a contour that is not cut.
@@ -102,19 +102,21 @@ def drawing(drawn: DrawnJob) -> dict[str, Any]:
         "contours": in_json([_contour(drawn, *numbered) for numbered in enumerate(drawn.known.choose_all())]),
         "starts": [place(start) for start in drawn.reading.starts],
         "left": in_json(_left(drawn)),
-        "gaps": _gaps(report),
+        "repairs": _repairs(report),
         "report": [line(entry) for entry in report.report()],
     }
 
 
-def _gaps(report: Account) -> list[list[float]]:
-    """Pairs of open ends, each end with its nearest one, the narrowest first: x and y of both."""
-    pairs = {
-        tuple(sorted((end.place, end.other))): end.gap
-        for end in report.open_ends
-        if end.other is not None and end.place != end.other
-    }
-    return [[*place(first), *place(last)] for first, last in sorted(pairs, key=pairs.__getitem__)[:_MOST_GAPS]]
+def _repairs(report: Account) -> list[dict[str, Any]]:
+    """What may be asked for to close outlines, the smallest of each kind first; what is asked is as the job has it."""
+    count: Counter[str] = Counter()
+    repairs = []
+    for repair in report.repairs:
+        count[repair.kind] += 1
+        if count[repair.kind] <= _MOST_REPAIRS:
+            asked, places = [round(value, _LENGTH) for value in repair.asked], [place(each) for each in repair.places]
+            repairs.append({"kind": repair.kind, "places": places, "asked": asked, "size": round(repair.size, _LENGTH)})
+    return repairs
 
 
 def _left(drawn: DrawnJob) -> dict[str, Any]:

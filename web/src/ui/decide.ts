@@ -42,20 +42,38 @@ export class Decisions {
     this.#at = same >= 0 ? same : Math.min(this.#at, Math.max(0, open.length - 1));
     const line = open[this.#at];
     this.#present = line ? nameOf(line) : "";
-    this.#canvas.rings = open.flatMap((each, at) => {
-      const place = this.#placeOf(each);
-      return place ? [{ place: micrometres(place), isWrong: each.wrong === true, isPresent: at === this.#at }] : [];
-    });
+    this.#ring([]);
     const box = get("decide");
     box.hidden = !line;
-    const shown = JSON.stringify([line, this.#at, open.length, document.documentElement.lang]);
+    const { drawn } = this.#desk.state ?? {};
+    const shown = JSON.stringify([line, this.#at, open.length, drawn, document.documentElement.lang]);
     if (!line || shown === this.#shown) return;
     this.#shown = shown;
     box.className = line.wrong ? "wrong" : "care";
     get("decide-text").textContent = get("decide-text").title = inPresent(line.text);
     get("decide-count").textContent = w("decideCount", this.#at + 1, open.length);
     get("decide-turn").hidden = open.length < 2;
-    get("decide-fixes").replaceChildren(...this.#fixes(line).map(button));
+    get("decide-fixes").replaceChildren(...this.#fixes(line).map((fix) => this.#button(fix)));
+  }
+
+  /** Rings the places that want a decision, and those that a button is about. */
+  #ring(meant: readonly Point[]): void {
+    const rings = this.#told.open.flatMap((each, at) => {
+      const place = this.#placeOf(each);
+      return place ? [{ place: micrometres(place), isWrong: each.wrong === true, isPresent: at === this.#at }] : [];
+    });
+    this.#canvas.rings = [...rings, ...meant.map((place) => ({ place: micrometres(place), isWrong: false, isPresent: true }))];
+  }
+
+  #button({ label, act, places }: Fix): HTMLButtonElement {
+    const made = make("button", "", label);
+    made.type = "button";
+    made.addEventListener("click", act);
+    if (places) {
+      for (const event of ["pointerenter", "focus"]) made.addEventListener(event, () => this.#ring(places));
+      for (const event of ["pointerleave", "blur"]) made.addEventListener(event, () => this.#ring([]));
+    }
+    return made;
   }
 
   #fixes(line: Told): Fix[] {
@@ -86,10 +104,3 @@ export class Decisions {
 }
 
 const nameOf = ({ code, contour, place, offer }: Told): string => JSON.stringify([code, contour, place, offer]);
-
-function button({ label, act }: Fix): HTMLButtonElement {
-  const made = make("button", "", label);
-  made.type = "button";
-  made.addEventListener("click", act);
-  return made;
-}

@@ -1,5 +1,5 @@
 /** Changes of a job: each gives another job. Contours are known by their numbers in the drawing as it is now. */
-import type { Chosen, Contour, Gap, Job, Match, Point, Tables, Values, Wanted } from "./types.ts";
+import type { Chosen, Contour, Job, Match, Point, Repair, Tables, Values, Wanted } from "./types.ts";
 
 /** A job, and the contour that each of its `contour` entries is about; null: it is lost. */
 export interface Edited {
@@ -118,12 +118,27 @@ export function withTables(before: Edited, keys: Readonly<Record<string, readonl
   return { ...before, job: { ...before.job, ...Object.fromEntries(taken) } };
 }
 
-/** Lines are put in between ends, beside those that there are. */
-export function bridged(before: Edited, gaps: readonly Gap[]): Edited {
-  const known = (before.job.read?.["bridges"] ?? []) as readonly Gap[];
-  const isNew = (gap: Gap): boolean => !known.some((other) => String(other) === String(gap));
-  return set(before, "read", "bridges", [...known, ...gaps.filter(isNew)]);
-}
+/** The job's lists of repairs. */
+const REPAIRS = { bridge: "bridges", corner: "corners", stray: "strays" } as const;
+
+/** What was asked for to close outlines. */
+export const repairsOf = ({ job }: Edited, kind: Repair["kind"]): readonly (readonly number[])[] =>
+  (job.read?.[REPAIRS[kind]] ?? []) as readonly (readonly number[])[];
+
+export const isRepaired = (edited: Edited, { kind, asked }: Repair): boolean =>
+  repairsOf(edited, kind).some((other) => String(other) === String(asked));
+
+export const countRepairs = (edited: Edited): number =>
+  (Object.keys(REPAIRS) as Repair["kind"][]).reduce((sum, kind) => sum + repairsOf(edited, kind).length, 0);
+
+/** Repairs are asked for, beside those that there are. */
+export const repaired = (before: Edited, repairs: readonly Repair[]): Edited =>
+  repairs
+    .filter((repair) => !isRepaired(before, repair))
+    .reduce((edited, { kind, asked }) => set(edited, "read", REPAIRS[kind], [...repairsOf(edited, kind), asked]), before);
+
+export const withoutRepairs = (before: Edited): Edited =>
+  Object.values(REPAIRS).reduce((edited, key) => set(edited, "read", key, undefined), before);
 
 /** Places are whole µm. */
 export const rounded = ([x, y]: Point): Point => [Math.round(x * 1000) / 1000, Math.round(y * 1000) / 1000];

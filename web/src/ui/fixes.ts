@@ -2,14 +2,16 @@
 import { get } from "../dom.ts";
 import { view } from "../shell.ts";
 import type { Desk } from "./desk.ts";
-import { bridged, type Change, change, type Edited, set } from "./edits.ts";
+import { type Change, change, type Edited, isRepaired, repaired, set } from "./edits.ts";
 import { shown, typed } from "./look.ts";
 import type { Told } from "./told.ts";
-import type { Gap } from "./types.ts";
+import type { Point, Repair } from "./types.ts";
 import { find, type Word, w } from "./words.ts";
 
 export interface Fix {
   readonly label: string;
+  /** The places that it is about, which are ringed while it is pointed at. */
+  readonly places?: readonly Point[];
   act(): void;
 }
 
@@ -67,7 +69,26 @@ const FIELDS: Record<string, Word> = {
 };
 
 /** Lines of the report about ends that do not meet. */
-const OF_ENDS = new Set(["open-refused", "open-end", "outline-lost", "no-outline-gap", "ends-near", "open-on-line"]);
+const OF_ENDS = new Set([
+  "open-refused",
+  "open-end",
+  "outline-lost",
+  "no-outline-gap",
+  "no-outline-junctions",
+  "ends-near",
+  "open-on-line",
+  "line-around",
+  "lines-around",
+  "lines-between",
+]);
+/** Repairs, in the order of their buttons, with these' words for one and for all. */
+const KINDS: readonly (readonly [Repair["kind"], Word, Word | undefined])[] = [
+  ["corner", "fixCorner", "fixCornerAll"],
+  ["bridge", "fixBridge", "fixBridgeAll"],
+  ["stray", "fixStray", undefined],
+];
+/** An end that a line of the report tells of is no farther from its place, mm. */
+const NEAR = 0.01;
 
 const under = (setting: string): string => KEYS[setting] ?? setting.replaceAll("-", "_");
 
@@ -86,24 +107,33 @@ export function fixesOf(desk: Desk, line: Told): Fix[] {
     if (part) return [{ label, act: () => edit(set(desk.edited, part, under(setting), taken)) }];
     return setting === "side" ? [{ label, act: () => wish({ side: value as Change["side"] }) }] : [];
   });
-  if (code !== undefined && OF_ENDS.has(code)) fixes.unshift(...bridges(desk, line));
+  if (code !== undefined && OF_ENDS.has(code)) fixes.unshift(...repairs(desk, line));
   if (!wrong || id === undefined || !desk.contours.has(id)) return fixes;
   const isOfRoom = advice.some(([setting]) => setting === "offset" || setting === "small" || setting === "into");
   if (isOfRoom) fixes.push({ label: w("fixOnLine"), act: () => wish({ side: "on" }) });
   return [...fixes, { label: w("fixLeave"), act: () => wish({ cut: false }) }];
 }
 
-/** A line is put in between two ends, those nearest to where the line of the report is, or between all. */
-function bridges(desk: Desk, { place }: Told): Fix[] {
-  const gaps = desk.state?.gaps ?? [];
-  const far = ([x, y, u, v]: Gap): number =>
-    place ? Math.min(Math.hypot(x - place[0], y - place[1]), Math.hypot(u - place[0], v - place[1])) : 0;
-  const [nearest] = [...gaps].sort((one, other) => far(one) - far(other));
-  if (!nearest) return [];
-  const bridge = (some: readonly Gap[]): void => desk.edit(bridged(desk.edited, some));
-  const wide = shown(Math.hypot(nearest[2] - nearest[0], nearest[3] - nearest[1]));
-  const one = { label: w("fixBridge", wide), act: () => bridge([nearest]) };
-  return gaps.length > 1 ? [one, { label: w("fixBridgeAll", gaps.length), act: () => bridge(gaps) }] : [one];
+/** What closes the outline at the place of a line of the report, and all places like it; a line that is none is left. */
+function repairs(desk: Desk, { place }: Told): Fix[] {
+  const known = (desk.state?.repairs ?? []).filter((repair) => !isRepaired(desk.edited, repair));
+  const far = ({ places }: Repair): number =>
+    place ? Math.min(...places.map(([x, y]) => Math.hypot(x - place[0], y - place[1]))) : 0;
+  const fixes: Fix[] = [];
+  for (const [kind, one, all] of KINDS) {
+    const alike = known.filter((repair) => repair.kind === kind);
+    const [nearest] = [...alike].sort((some, other) => far(some) - far(other));
+    if (!nearest) continue;
+    const fix = (label: string, some: readonly Repair[]): Fix => ({
+      label,
+      places: some.flatMap(({ places }) => places),
+      act: () => desk.edit(repaired(desk.edited, some)),
+    });
+    // (a line is left that is at this place)
+    if (kind !== "stray" || far(nearest) < NEAR) fixes.push(fix(w(one, shown(nearest.size)), [nearest]));
+    if (all && alike.length > 1) fixes.push(fix(w(all, alike.length), alike));
+  }
+  return fixes;
 }
 
 function labelOf(setting: string, value: string): string {

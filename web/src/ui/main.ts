@@ -10,7 +10,7 @@ import { Canvas } from "./canvas.ts";
 import { Cutting } from "./cutting.ts";
 import { Decisions } from "./decide.ts";
 import { Desk } from "./desk.ts";
-import { set } from "./edits.ts";
+import { countRepairs, withoutRepairs } from "./edits.ts";
 import { Fields } from "./fields.ts";
 import { Keys } from "./keys.ts";
 import { shown } from "./look.ts";
@@ -106,9 +106,9 @@ function say(): void {
   get<HTMLButtonElement>("redo").disabled = !desk.canRedo;
   get<HTMLButtonElement>("cut").disabled = get<HTMLButtonElement>("save").disabled = !state || desk.isGone;
   document.body.dataset["settled"] = String(desk.isSettled);
-  const bridges = (desk.edited.job.read?.["bridges"] ?? []) as readonly unknown[];
-  get("bridges").hidden = !bridges.length;
-  get("bridge-count").textContent = String(bridges.length);
+  const repairs = countRepairs(desk.edited);
+  get("repairs").hidden = !repairs;
+  get("repair-count").textContent = String(repairs);
   report.show();
   decisions.show();
   void results.show();
@@ -166,7 +166,7 @@ function bind(): void {
   onClick("measure", () => {
     canvas.isMeasuring = !canvas.isMeasuring;
   });
-  onClick("no-bridges", () => desk.edit(set(desk.edited, "read", "bridges", undefined)));
+  onClick("no-repairs", () => desk.edit(withoutRepairs(desk.edited)));
   onClick("alike", () => actions.alike());
   onClick("box", () => {
     canvas.isBoxing = !canvas.isBoxing;

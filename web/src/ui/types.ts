@@ -135,7 +135,14 @@ export interface Note {
   readonly up: Point;
 }
 
-export type Gap = readonly [number, number, number, number];
+/** What may be asked for to close outlines: a line between two ends, two ends to where they cross, a line that is left.
+ * `places`: the ends; `asked`: what the job has then; `size`, mm. */
+export interface Repair {
+  readonly kind: "bridge" | "corner" | "stray";
+  readonly places: readonly [Point, Point];
+  readonly asked: readonly number[];
+  readonly size: number;
+}
 
 /** What is not cut. */
 export interface Left {
@@ -158,8 +165,7 @@ export interface State {
   readonly contours: readonly Contour[];
   readonly starts: readonly Point[];
   readonly left: Left;
-  /** Pairs of open ends: x and y of both. */
-  readonly gaps?: readonly Gap[];
+  readonly repairs?: readonly Repair[];
   readonly report: readonly Line[];
   readonly job: Job;
   readonly matches: readonly Match[];
