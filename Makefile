@@ -97,6 +97,10 @@ test test-all: venv asm80 emu tools web-modules
 	$(PY) -m pytest -q -n 2 --dist loadgroup $(TEST_OPTIONS) tests
 	@$(MAKE) -s lint
 
+# Each sentence of the catalogues replaced by its code: only tests that are marked as tests of wording may look at words.
+test-codes: venv asm80 emu tools web-modules
+	$(PY) -m pytest -q -n 2 --dist loadgroup --codes tests/tools tests/ui
+
 # One test, or some: T=tests/rom/test_build.py, T="-k wrench".
 t: venv asm80 emu tools web-modules
 	$(PY) -m pytest -q $(if $(findstring tests,$(T)),,tests) $(T)
@@ -149,4 +153,4 @@ build/board/bin/python:
 clean:
 	rm -rf build
 
-.PHONY: all help rom-age venv run test test-all t format lint docs bench bench-exact bench-rom board clean
+.PHONY: all help rom-age venv run test test-all test-codes t format lint docs bench bench-exact bench-rom board clean

@@ -11,6 +11,7 @@ from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
 
+import coded
 import kept
 import pytest
 from hypothesis import HealthCheck, settings
@@ -44,14 +45,31 @@ os.environ["PATH"] += os.pathsep + str(Path(sys.executable).parent)
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--kept", action="store_true", help="leave out what passed before, all that it reads as it is now")
     parser.addoption("--keys", action="store_true", help="no test opens what is not in its key (tests/kept.py)")
+    parser.addoption(
+        "--codes", action="store_true", help="messages are codes and values; tests of wording are left out"
+    )
 
 
 def pytest_configure(config: pytest.Config) -> None:
+    config.addinivalue_line("markers", "wording: a test of sentences, of the catalogues or of the pages that show them")
+    if config.getoption("--codes"):
+        coded.replace()
+        os.environ["PYTHONPATH"] = os.pathsep.join(
+            filter(None, [str(Path(__file__).with_name("coded_processes")), os.environ.get("PYTHONPATH")])
+        )
     # (who says SKG_SEED or another ROM wants other tests)
     if config.getoption("--kept") and not any(name.startswith("SKG_") for name in os.environ):
         config.pluginmanager.register(kept.Plugin(config, ROOT))
     if config.getoption("--keys"):
         config.pluginmanager.register(kept.Watch(ROOT))
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """With --codes, leave out what tests wording: what is left must hold facts, so that a sentence can be reworded."""
+    if config.getoption("--codes"):
+        of_wording = [item for item in items if item.get_closest_marker("wording")]
+        config.hook.pytest_deselected(items=of_wording)
+        items[:] = [item for item in items if not item.get_closest_marker("wording")]
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

@@ -1,26 +1,39 @@
 """Messages by their facts: what a test asks of a message is what it tells, not how it is worded.
 
-A fact is a place, a number of a line or contour, a quantity, an option, a name of a file; or a noun, where nothing else
-tells the message from others. It stands as a whole: 12 is not in 120, in 12.5 or in -12, `gap` not in `gape`, but in
-`Gaps`. A compiled pattern is a fact too, for a number that is known to some places.
+A fact is a code with the values that matter, `Phrase("open-end", gap=0.1, advice=Phrase("tolerance-joins"))`; what has
+no code, as in what the emulator says, is a place, a number, an option, a name. These stand as a whole: 12 is not in
+120, in 12.5 or in -12, `gap` not in `gape`, but in `Gaps`. A compiled pattern is a fact too, for a number that is known
+to some places.
+
+A code is looked for in a text by its template, so that no test has a sentence: `pytest --codes` runs the tests with
+codes instead of sentences.
 """
 
 from __future__ import annotations
 
 import re
+import string
 from collections.abc import Iterable, Mapping
 
+from skg.messages.catalogue import template
 from skg.messages.finding import Finding, Phrase
+from skg.messages.render import Medium, Speech, _Wording, speech, text
 
 #: The beginning of a line that warns and does not refuse.
-CARE = "take care"
+CARE = text(Phrase("care", text="")).rstrip()
 
 
 def shape(fact: object) -> str:
     """A regular expression of one fact."""
     if isinstance(fact, re.Pattern):
         return f"(?:{fact.pattern})"
-    text = str(fact)
+    if isinstance(fact, Phrase):
+        return f"(?:{_template_shape(fact)})"
+    return _text_shape(str(fact))
+
+
+def _text_shape(text: str) -> str:
+    """A regular expression of a text that stands as a whole."""
     first, last = text[0], text[-1]
     before = behind = ""
     if first.isdigit():
@@ -33,6 +46,47 @@ def shape(fact: object) -> str:
         behind = r"(?:e?s)?(?!\w)" if last.islower() else r"(?!\w)"
     whole = before + re.escape(text) + behind
     return f"(?i:{whole})" if text.islower() else whole
+
+
+def _template_shape(phrase: Phrase) -> str:
+    """A regular expression of a code's sentence, with the values that the phrase has, and whatever others."""
+    values = dict(phrase.values)
+    counts = [values["count"]] if "count" in values else [1, 2]
+    forms = dict.fromkeys(template(phrase.code, speech.language, count) for count in counts)
+    assert all(form != phrase.code or form == "plain" for form in forms), f"no such code: {phrase.code}"
+    parts = [part for form in forms for part in string.Formatter().parse(form)]
+    unknown = values.keys() - {field for _, field, _, _ in parts} - {"count"}
+    assert not unknown, f"{phrase.code} has no {unknown}"
+    assert values or any(re.search(r"\w\w", before) for before, *_ in parts), f"any text is {phrase.code}"
+    shapes = (
+        "".join(
+            re.escape(before) + ("" if field is None else _field_shape(field, spec or "", values))
+            for before, field, spec, _ in string.Formatter().parse(form)
+        )
+        for form in forms
+    )
+    return "|".join(shapes)
+
+
+def _field_shape(field: str, spec: str, values: Mapping[str, object]) -> str:
+    """A regular expression of a field: a setting, in the words of any medium; a value, if it is known."""
+    if field.startswith("--"):
+        name, _, value = field.removeprefix("--").partition("=")
+        if value.startswith("$"):
+            value = _Wording(speech).format_field(values[value[1:]], spec) if value[1:] in values else "\0"
+        words = (_Wording(Speech(speech.language, medium)).setting(name, value or None) for medium in Medium)
+        return f"(?:{'|'.join(re.escape(word).replace(re.escape(chr(0)), '.*?') for word in words)})"
+    return _value_shape(values[field], spec) if field in values else ".*?"
+
+
+def _value_shape(value: object, spec: str) -> str:
+    if isinstance(value, Phrase):
+        return f"(?:{_template_shape(value)})"
+    if isinstance(value, tuple | list) and any(isinstance(item, Phrase) for item in value):
+        between = template("sentence-separator" if spec == ";" else "list-separator", speech.language)
+        return re.escape(between).join(_value_shape(item, spec) for item in value)
+    shown = _Wording(speech).format_field(value, spec)
+    return _text_shape(shown) if shown and not shown.islower() else re.escape(shown)
 
 
 def says(text: object, *facts: object) -> bool:
@@ -51,8 +105,9 @@ def each_says(lines: str | Iterable[object], *facts: object) -> bool:
 
 
 def pattern(*facts: object) -> str:
-    """A regular expression for `pytest.raises`: a line that says these facts in this order."""
-    return ".*".join(map(shape, facts))
+    """A regular expression for `pytest.raises`: a line that says these facts in this order; codes anywhere behind those
+    before them."""
+    return ".*".join(f"(?=.*{shape(fact)})" if isinstance(fact, Phrase) else shape(fact) for fact in facts)
 
 
 def counts_say(counts: Mapping[str, int], expected: Mapping[object, int]) -> bool:
