@@ -1,4 +1,5 @@
-"""Contours on the machine, brought back to where the file has them: by complex numbers, and not as they were placed."""
+"""Contours on the machine, copies too, brought back to where the file has them: by complex numbers, and not as they
+were placed."""
 
 from __future__ import annotations
 
@@ -11,19 +12,33 @@ import numpy as np
 
 from skg.geometry.contour import Contour, CurveNode, Edge
 from skg.geometry.plane import XY
-from skg.job.placing import Place
+from skg.job.placing import Copies, Place
+
+_ONE = Copies()
 
 
-def as_drawn(contours: list[Contour], place: Place, origin: XY) -> list[Contour]:
-    """The contours in the file's place and size. `origin`: the place of the drawing that is 0, 0 on the machine, mm."""
-    if place == Place():
+def as_drawn(
+    contours: list[Contour], place: Place, origin: XY, copies: Copies = _ONE, number: int = 0
+) -> list[Contour]:
+    """The contours of a copy, by its number, in the file's place and size. `origin`: the place of the drawing that is
+    0, 0 on the machine, mm."""
+    if place == Place() and not number:
         return contours
-    turned = rect(1.0, -radians(place.turn)) / place.scale
+    turned = rect(place.scale, radians(place.turn))
     zero = complex(*origin)
 
+    def mirrored(z: complex) -> complex:
+        return {None: z, "x": complex(-z.real, z.imag), "y": complex(z.real, -z.imag)}[place.mirror]
+
+    row, column = divmod(number, copies.columns)
+    x, y = copies.step or (0.0, 0.0)
+    moved, turn, centre = complex(column * x, row * y), 1 + 0j, 0j
+    if copies.around > 1:
+        moved, turn = 0j, rect(1.0, radians(number * copies.angle))
+        centre = mirrored(complex(*(copies.about or origin)) - zero) * turned
+
     def back(z: complex) -> complex:
-        z *= turned
-        return zero + {None: z, "x": complex(-z.real, z.imag), "y": complex(z.real, -z.imag)}[place.mirror]
+        return zero + mirrored((centre + (z - moved - centre) / turn) / turned)
 
     return [replace(contour, edges=tuple(_edge(edge, back, place) for edge in contour.edges)) for contour in contours]
 

@@ -183,6 +183,16 @@ _BESIDE_A_JOB = (
     type=FiniteRange(1 / values.MOST_SCALE, values.MOST_SCALE),
     help="Cut the part so many times as large as it is drawn; the report says so. Wire, leads and tabs stay.",
 )
+@click.option("--columns", default=1, metavar="N", type=click.IntRange(1), help="Cut so many copies beside each other.")
+@click.option("--rows", default=1, metavar="N", type=click.IntRange(1), help="Cut so many rows of copies.")
+@click.option("--step", type=COORDINATES, help="From one copy to the next, mm: to the right, and up.")
+@click.option("--around", default=1, metavar="N", type=click.IntRange(1), help="Cut so many copies around a place.")
+@click.option("--about", type=COORDINATES, help="The place of the drawing that copies lie around.")
+@click.option(
+    "--every",
+    type=Degrees(-360, 360),
+    help="Turn from one copy around a place to the next. Default: evenly, all around.",
+)
 @click.option(
     "--fit-tolerance",
     default=0.0002,

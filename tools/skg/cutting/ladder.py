@@ -20,6 +20,7 @@ from skg.job.job import MachineSetup
 from skg.machine.board import ErrorLine
 from skg.machine.feeding import MEMORY_FULL, Fed, feed, feed_lines, feed_routes, refused_routes
 from skg.messages.finding import Finding, Phrase
+from skg.planning.copies import Pattern
 from skg.planning.islands import islands
 from skg.planning.planned import LeadShape, PlannedContour, Reason
 from skg.tape import text as tapes
@@ -72,18 +73,33 @@ class CutResult:
 _Trouble = ErrorLine | list[Misfit]
 
 
-def make(routes: list[PlannedContour], title: str, machine: MachineSetup, progress: Progress = in_silence) -> CutResult:
+def make(
+    routes: list[PlannedContour],
+    title: str,
+    machine: MachineSetup,
+    progress: Progress = in_silence,
+    pattern: Pattern | None = None,
+) -> CutResult:
     """Write the program that cuts the routes, let the board run it, check the tape.
 
     Each contour is written as it is drawn, unless the ROM or the check refuses that; then the remedies of `_RUNGS`
     follow, for this contour alone. Nothing is returned that is wrong: a contour that cannot be cut, or that is not cut
-    as it is drawn, is a `UserError`.
+    as it is drawn, is a `UserError`. `pattern`: copies of all routes, which are cut instead.
     """
-    ladder = _Ladder(routes, title, machine, progress)
+    first = _made(_Ladder(routes, title, machine, progress))
+    if not pattern:
+        return first
+    # (what is wrong with the part is told of once)
+    result = _made(_Ladder(pattern.all_of(first.routes), title, machine, progress, pattern))
+    return replace(result, left=first.left + result.left)
+
+
+def _made(ladder: _Ladder) -> CutResult:
+    """The tape of contours that have climbed as far as they must."""
     ladder.leave_short()
     ladder.tame()
     result = ladder.around_tips(ladder.through())
-    refusal.refuse(result.checked, result.routes, machine)
+    refusal.refuse(result.checked, result.routes, ladder.machine)
     return replace(result, left=tuple(ladder.left))
 
 
@@ -131,14 +147,22 @@ _RUNGS = (_arcs_for_fillets, _straight_lead, _own_way, _in_chords)
 
 class _Ladder:
     """The contours, each on a rung of its own. `routes`: by their numbers in the order of cutting; `left`: those that
-    are not cut."""
+    are not cut; `pattern`: the copies that they are."""
 
-    def __init__(self, routes: list[PlannedContour], title: str, machine: MachineSetup, progress: Progress) -> None:
+    def __init__(
+        self,
+        routes: list[PlannedContour],
+        title: str,
+        machine: MachineSetup,
+        progress: Progress,
+        pattern: Pattern | None = None,
+    ) -> None:
         self.routes = dict(enumerate(routes))
         self.left: list[Left] = []
         self.title = title
         self.machine = machine
         self.progress = progress
+        self.pattern = pattern
 
     def leave_short(self) -> None:
         """Leave contours that are too short for their tab; a `UserError` where they are refused."""
@@ -193,7 +217,7 @@ class _Ladder:
 
     def _try(self, routes: dict[int, PlannedContour]) -> tuple[CutResult | None, dict[int, _Trouble]]:
         """Cut some contours: what comes of it, and which do not go through."""
-        numbers, program = list(routes), Program(list(routes.values()), self.title)
+        numbers, program = list(routes), Program(list(routes.values()), self.title, pattern=self.pattern)
         result = _tried(program, self.machine, self.progress)
         if isinstance(result, ErrorLine):
             refused = _refused(program, self.machine) or dict.fromkeys(range(len(numbers)), result)
@@ -308,7 +332,8 @@ def _refused(program: Program, machine: MachineSetup) -> dict[int, ErrorLine]:
 def _through(program: Program, machine: MachineSetup, on_done: Callable[[int], None]) -> tuple[str, bool, Fed]:
     """The program's text, whether it is stored, and what the board made of it: with line numbers where it fits."""
     text = ""
-    if _LEAST_STORED * len(program.routes) <= 1024 * machine.ram:
+    copies = program.pattern.copies.count if program.pattern else 1
+    if _LEAST_STORED * len(program.routes) <= 1024 * machine.ram * copies:
         with suppress(UserError):
             text = program.numbered()
     if text:

@@ -17,6 +17,7 @@ from skg.errors import UserError
 from skg.geometry.contour import Edge
 from skg.geometry.plane import XY, distance, polar, turn
 from skg.messages.finding import Finding
+from skg.planning.copies import Pattern
 from skg.planning.planned import PlannedContour
 from skg.planning.runs import Lead, Run
 
@@ -192,11 +193,24 @@ def parts_of(route: PlannedContour) -> Iterator[RoutePart]:
             here = None
 
 
+class _Elsewhere(NamedTuple):
+    """What is written behind a point, a circle and an angle of a part of which copies are cut elsewhere."""
+
+    point: str = ""
+    circle: str = ""
+    angle: str = ""
+
+
+#: In rows V is the way to the copy; around a place V is this, and D the turn.
+_IN_ROWS, _AROUND = _Elsewhere("+V", "+V"), _Elsewhere("#(D:V)", "#(D:V)", "+D")
+
+
 @dataclass
 class _Writer:
     """The statements of a program, and the names in use. `names`: the items that are used again, none: no names."""
 
     is_stored: bool
+    elsewhere: _Elsewhere = _Elsewhere()
     uses: Counter[tuple[str, str]] = field(default_factory=Counter)
     statements: list[Step] = field(default_factory=list)
     data: list[str] = field(default_factory=list)
@@ -216,15 +230,27 @@ class _Writer:
     def named(self, item: _Item) -> str:
         """The item's text in a CUT: the name of one that is used again, given on a line before where it is new."""
         key = item.letter, item.text
-        if not item.letter or self.uses[key] < 2:
+        if not item.letter:
             return item.text
+        if self.uses[key] < 2:
+            return self._placed(item)
         if key not in self.names:
             if self.used[item.letter] == _LAST_NAME:
-                return item.text
+                return self._placed(item)
             self.used[item.letter] += 1
             self.names[key] = f"{item.letter}{self.used[item.letter]}"
-            self.say(f"{self.names[key]}={item.text}", item.place)
+            self.say(f"{self.names[key]}={self._placed(item)}", item.place)
         return self.names[key]
+
+    def _placed(self, item: _Item) -> str:
+        """A point or a circle where the copy has it."""
+        if item.letter == "P":
+            return item.text + self.elsewhere.point
+        if self.elsewhere.circle != "+V":
+            return item.text + self.elsewhere.circle
+        # (a circle is moved by its centre)
+        centre, radius = item.text.rsplit(":", 1)
+        return f"({centre}+V):{radius}"
 
     def write(self, title: str, pieces: Iterable[RoutePart]) -> None:
         """Write a route."""
@@ -249,7 +275,7 @@ class _Writer:
             if isinstance(piece, Edge):
                 self.fit(piece)
             else:
-                self.say(piece)
+                self.say(piece + self.elsewhere.point * piece.startswith("FROM"))
         self.cut(cut)
 
     def cut(self, items: list[tuple[str, XY]]) -> None:
@@ -272,18 +298,20 @@ class _Writer:
             for node, text in zip(edge.nodes, nodes, strict=True):
                 self.say(f"FIT {text}", node.point)
             return
-        for text in (f"REM CURVE OF {len(nodes)} NODES", f"I={len(nodes)}", "GOSUB *"):
+        for text in (f"REM CURVE OF {len(nodes)} NODES", f"I={len(nodes)}", "GOSUB *FIT"):
             self.say(text, edge.start)
         self.data += nodes
 
 
 @dataclass
 class Program:
-    """A program that cuts routes; `title` goes into its first line, `parts_of` tells what each route is written as."""
+    """A program that cuts routes; `title` goes into its first line, `parts_of` tells what each route is written as.
+    `pattern`: the copies that they are, in order."""
 
     routes: list[PlannedContour]
     title: str
     parts_of: Callable[[PlannedContour], Iterable[RoutePart]] = parts_of
+    pattern: Pattern | None = None
 
     def __post_init__(self) -> None:
         plain = re.sub(r"[^ -~]", "?", self.title.upper())[: _WIDTH - 30]
@@ -299,37 +327,80 @@ class Program:
         yield [Step("END")]
 
     def numbered(self) -> str:
-        """The program with line numbers; too many lines are a `UserError`."""
-        pieces = [list(self.parts_of(route)) for route in self.routes]
-        writer = _Writer(True)
+        """The program with line numbers; too many lines are a `UserError`. A part of which copies are cut is written
+        once."""
+        pattern = self.pattern if self.pattern and self.pattern.has(self.routes) else None
+        routes = self.routes[: len(self.routes) // pattern.copies.count] if pattern else self.routes
+        pieces = [list(self.parts_of(route)) for route in routes]
+        elsewhere = _Elsewhere() if not pattern else _AROUND if pattern.copies.around > 1 else _IN_ROWS
+        writer = _Writer(True, elsewhere)
         writer.uses.update(
             (piece.letter, piece.text) for items in pieces for piece in items if isinstance(piece, _Item)
         )
-        for route, items in zip(self.routes, pieces, strict=True):
+        for route, items in zip(routes, pieces, strict=True):
             writer.write(_title(route), items)
-        lines = [self.head.text, *(statement.text for statement in writer.statements), "END"]
-        subroutine = len(lines)
+        body = [statement.text for statement in writer.statements]
+        if pattern:
+            restored = ["RESTORE"] * bool(writer.data)
+            body = [*_copying(pattern), "END", "REM THE PART", "*PART", *restored, *body, "RETURN"]
+        else:
+            body.append("END")
+        lines = [self.head.text, *body]
         if writer.data:
             lines += [
                 "REM SUBROUTINE: I NODES WITH THE DIRECTION OF THEIR TANGENTS",
+                "*FIT",
                 "READ P,A",
-                "FIT P,A",
+                f"FIT P{elsewhere.point},A{elsewhere.angle}",
                 "I=I-1",
-                "IF I>0 GOTO *",
+                "IF I>0 GOTO *FIT",
                 "RETURN",
                 "REM NODES: PLACE, DIRECTION",
             ]
             lines += _data(writer.data)
-        step = 10 if len(lines) * 10 <= _LAST_LINE else 1
-        if len(lines) * step > _LAST_LINE:
-            raise UserError(Finding("too-many-lines", lines=len(lines), most=_LAST_LINE))
-        target = str((subroutine + 2) * step)
-        return "".join(f"{number * step} {_pointed(line, target)}\n" for number, line in enumerate(lines, 1))
+        return _with_numbers(lines)
 
 
-def _pointed(line: str, target: str) -> str:
-    """Fill in the line number of the subroutine."""
-    return line[:-1] + target if line.startswith(("GOSUB *", "IF I>0 GOTO *")) else line
+def _copying(pattern: Pattern) -> Iterator[str]:
+    """The statements that have the part cut at each of its places."""
+    copies = pattern.copies
+    if copies.around > 1:
+        yield f"REM {copies.around} COPIES AROUND V"
+        yield f"V={literal(pattern.centre)}"
+        yield from ("I1=0", "*COPY", f"D=I1*{_factor(copies.angle)}", "GOSUB *PART", "I1=I1+1")
+        yield f"IF I1<{copies.around} GOTO *COPY"
+        return
+    x, y = copies.step or (0.0, 0.0)
+    yield f"REM COPIES: {copies.columns} BESIDE EACH OTHER, {copies.rows} ABOVE"
+    yield from ("J1=0", "*ROW", "I1=0", "*COPY", f"V=(I1*{_factor(x)},J1*{_factor(y)})", "GOSUB *PART", "I1=I1+1")
+    yield f"IF I1<{copies.columns} GOTO *COPY"
+    yield "J1=J1+1"
+    yield f"IF J1<{copies.rows} GOTO *ROW"
+
+
+def _factor(value: float) -> str:
+    """A number behind a sign of multiplication."""
+    return number(value) if value >= 0 else f"({number(value)})"
+
+
+def _with_numbers(lines: list[str]) -> str:
+    """The text of a program. A line that is a mark, such as *FIT, names the next one for the lines that end with it."""
+    count = sum(not line.startswith("*") for line in lines)
+    step = 10 if count * 10 <= _LAST_LINE else 1
+    if count * step > _LAST_LINE:
+        raise UserError(Finding("too-many-lines", lines=count, most=_LAST_LINE))
+    marks, kept = {}, []
+    for line in lines:
+        if line.startswith("*"):
+            marks[line] = (len(kept) + 1) * step
+        else:
+            kept.append(line)
+    numbered = []
+    for at, line in enumerate(kept, 1):
+        begin, star, mark = line.rpartition(" *")
+        target = marks.get(f"*{mark}") if star and (begin + " ").startswith(("GOSUB ", "IF ")) else None
+        numbered.append(f"{at * step} {line if target is None else f'{begin} {target}'}\n")
+    return "".join(numbered)
 
 
 def _data(items: list[str]) -> Iterator[str]:

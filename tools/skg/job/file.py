@@ -8,15 +8,16 @@ from __future__ import annotations
 
 import json
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from difflib import get_close_matches
+from functools import partial
 from typing import Any
 
 from skg.errors import UserError
 from skg.job import values
 from skg.job.job import INTO, KINDS, ROMS, SMALL, Chosen, Job, MachineSetup, TapeForm
-from skg.job.placing import MIRRORS, Place
+from skg.job.placing import MIRRORS, Copies, Place
 from skg.job.read_options import OPEN, UNITS, Wishes
 from skg.job.wanted import LEAD_SHAPES, SIDES, Partial
 from skg.messages.finding import Finding
@@ -59,6 +60,14 @@ _PLACE: dict[str, values.Check] = {
     "mirror": values.choice(MIRRORS),
     "scale": values.number(1 / values.MOST_SCALE, values.MOST_SCALE),
 }
+_COPIES: dict[str, values.Check] = {
+    "columns": values.whole(1, 1_000_000),
+    "rows": values.whole(1, 1_000_000),
+    "step": values.place,
+    "around": values.whole(1, 1_000_000),
+    "about": values.place,
+    "every": values.number(-360.0, 360.0),
+}
 _DEFAULT: dict[str, values.Check] = {
     "cut": values.flag,
     "side": values.choice(SIDES),
@@ -94,8 +103,17 @@ _TOP: dict[str, values.Check] = {
     "starts": values.places,
 }
 #: The tables of a file, with their keys; those of lists.
-TABLES = {"read": _READ, "machine": _MACHINE, "place": _PLACE, "default": _DEFAULT, "tape": TAPE}
+TABLES = {"read": _READ, "machine": _MACHINE, "place": _PLACE, "copies": _COPIES, "default": _DEFAULT, "tape": TAPE}
 _LISTS = {"layer": _LAYER, "contour": _CONTOUR}
+#: What each table is made into.
+_PARTS: dict[str, Callable[..., Any]] = {
+    "read": partial(Wishes, open=None),
+    "machine": MachineSetup,
+    "place": Place,
+    "copies": Copies,
+    "default": Partial,
+    "tape": TapeForm,
+}
 #: The keys that a setup may have: what a shop keeps for one machine and wire.
 SETUP: dict[str, tuple[str, ...]] = {
     "machine": ("wire", "gap", "offset", "rom", "ram", "feed"),
@@ -198,21 +216,18 @@ def _tables(top: Mapping[str, Any], known: Mapping[str, dict[str, values.Check]]
 
 def _made(tables: Tables, name: str) -> dict[str, Any]:
     """The parts of a job that its tables are, by their names as fields."""
-    try:
-        return made(tables)
-    except UserError as error:
-        raise error.within(name, "[machine]") from None
+    parts: dict[str, Any] = {}
+    for key, keys in tables.items():
+        try:
+            parts |= made({key: keys})
+        except UserError as error:
+            raise error.within(name, f"[{key}]") from None
+    return parts
 
 
 def made(tables: Tables) -> dict[str, Any]:
     """The parts of a job that tables of checked values are, by their names as fields."""
-    return {
-        "read": Wishes(**{"open": None, **tables.get("read", {})}),
-        "machine": MachineSetup(**tables.get("machine", {})),
-        "place": Place(**tables.get("place", {})),
-        "default": Partial(**tables.get("default", {})),
-        "tape": TapeForm(**tables.get("tape", {})),
-    }
+    return {key: _PARTS[key](**keys) for key, keys in tables.items()}
 
 
 def _layers(entries: list[tuple[dict[str, Any], str]], name: str) -> dict[str, Partial]:
@@ -295,10 +310,10 @@ def _told(value: object) -> str:
 
 def to_data(job: Job) -> dict[str, Any]:
     """The job as plain data: what is not said is left out."""
-    parts = (("read", Wishes(open=None)), ("machine", MachineSetup()), ("place", Place()), ("tape", TapeForm()))
+    usual = made({key: {} for key in _PARTS if key != "default"})
     said = {
-        key: {name: value for name, value in vars(getattr(job, key)).items() if value != getattr(usual, name)}
-        for key, usual in parts
+        key: {name: value for name, value in vars(getattr(job, key)).items() if value != getattr(part, name)}
+        for key, part in usual.items()
     } | {"default": job.default.said()}
     return {
         "schema": SCHEMA,

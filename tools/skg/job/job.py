@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 
 from skg.errors import UserError
 from skg.geometry.plane import XY
-from skg.job.placing import Place
+from skg.job.placing import Copies, Place
 from skg.job.read_options import Wishes
 from skg.job.values import MOST_OFFSET
 from skg.job.wanted import Partial, Wanted
@@ -102,8 +102,8 @@ class Job:
     """Wishes for a drawing; all lengths in mm.
 
     `drawing`: a file's name, `sha256` of its bytes, `box` around its contours; these are empty, or None, where nobody
-    has read it. `place`: where the part lies on the machine; all places of a job are the drawing's. `starts`: start
-    holes instead of those that are drawn. A contour beats its layer, a layer beats
+    has read it. `place`, `copies`: where the part lies on the machine, how often; all places of a job
+    are the drawing's. `starts`: start holes instead of those that are drawn. A contour beats its layer, a layer beats
     `default`; of a contour's layers the one that comes first in `layers`.
     """
 
@@ -114,6 +114,7 @@ class Job:
     machine: MachineSetup = MachineSetup()
     tape: TapeForm = TapeForm()
     place: Place = Place()
+    copies: Copies = Copies()
     starts: tuple[XY, ...] = ()
     default: Partial = Partial()
     layers: Mapping[str, Partial] = field(default_factory=dict)

@@ -1,10 +1,12 @@
-"""Where the part lies on the machine: what becomes its zero, turned, mirrored, scaled."""
+"""Where the part lies on the machine: what becomes its zero, turned, mirrored, scaled; and copies of it."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
+from skg.errors import UserError
 from skg.geometry.plane import XY
+from skg.messages.finding import Finding
 
 #: Places of the part's box, as it lies then, that may be the zero: parts of its width and height.
 ORIGINS: dict[str, XY] = {
@@ -16,6 +18,8 @@ ORIGINS: dict[str, XY] = {
 }
 #: "x": left and right change sides, "y": above and below do.
 MIRRORS = ("x", "y")
+#: No part is cut more often on one tape.
+MOST_COPIES = 2000
 
 
 @dataclass(frozen=True)
@@ -30,3 +34,38 @@ class Place:
     turn: float = 0.0
     mirror: str | None = None
     scale: float = 1.0
+
+
+@dataclass(frozen=True)
+class Copies:
+    """The part, cut several times: in `columns` and `rows`, `step` from one to the next, mm, x and y of the machine; or
+    `around` times around the place `about` of the drawing, mm, every so many degrees, counter-clockwise on the
+    machine; None: evenly. The first one is where the part lies."""
+
+    columns: int = 1
+    rows: int = 1
+    step: XY | None = None
+    around: int = 1
+    about: XY | None = None
+    every: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.around > 1 and self.columns * self.rows > 1:
+            raise UserError(Finding("copies-both"))
+        if self.count > MOST_COPIES:
+            raise UserError(Finding("copies-too-many", count=self.count, most=MOST_COPIES))
+        x, y = self.step or (0.0, 0.0)
+        if self.columns > 1 and not x or self.rows > 1 and not y:
+            raise UserError(Finding("copies-no-step"))
+        if self.around > 1 and self.about is None:
+            raise UserError(Finding("copies-no-centre"))
+
+    @property
+    def count(self) -> int:
+        """The number of them, the first one too."""
+        return self.columns * self.rows * self.around
+
+    @property
+    def angle(self) -> float:
+        """Degrees from one to the next, of those around a place."""
+        return 360 / self.around if self.every is None else self.every

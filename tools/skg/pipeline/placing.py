@@ -12,9 +12,10 @@ from skg.geometry.contour import Contour
 from skg.geometry.edge_arrays import boxes_of
 from skg.geometry.placement import Placement
 from skg.geometry.plane import XY
-from skg.job.placing import ORIGINS, Place
+from skg.job.placing import ORIGINS, Copies, Place
 from skg.job.wanted import Wanted
 from skg.messages.finding import Finding, Phrase
+from skg.planning.copies import Pattern
 from skg.planning.nesting import Nesting
 from skg.reading.read import FARTHEST
 
@@ -46,13 +47,30 @@ def placement_of(place: Place, cut: Sequence[Contour], shift: XY) -> Placement:
     return made
 
 
-def placed_nesting(nesting: Nesting, placement: Placement) -> Nesting:
-    """Contours on the machine: what lies in what is as it is drawn."""
+def pattern_of(copies: Copies, placement: Placement, cut: Sequence[Contour]) -> Pattern | None:
+    """The copies on the machine, None: the part alone. `cut`: the contours that are cut, as they are drawn; copies that
+    would lie too far away are a `UserError`."""
+    if copies.count == 1:
+        return None
+    pattern = Pattern(copies, placement.place(copies.about or (0.0, 0.0)))
+    boxes, _ = boxes_of([placement.contour(contour) for contour in cut])
+    (left, low), (right, top) = boxes[:, :2].min(0).tolist(), boxes[:, 2:].max(0).tolist()
+    corners = [(left, low), (left, top), (right, low), (right, top)]
+    places = (to.place(corner) for to in pattern.placements for corner in corners)
+    if (far := max(max(map(abs, place)) for place in places)) >= FARTHEST:
+        raise UserError(Finding("copies-too-far", far=far / 1000, most=FARTHEST / 1000))
+    return pattern
+
+
+def placed_nesting(nesting: Nesting, placement: Placement, pattern: Pattern | None, reach: float) -> Nesting:
+    """Contours on the machine: what lies in what is as it is drawn. `reach`: copies within it are beside, mm."""
     around = {
         number: outer._replace(gap=outer.gap and outer.gap._replace(place=placement.place(outer.gap.place)))
         for number, outer in nesting.around.items()
     }
-    return Nesting([placement.contour(contour) for contour in nesting.contours], nesting.depths, around)
+    contours = [placement.contour(contour) for contour in nesting.contours]
+    beside = pattern.beside(contours, reach) if pattern else []
+    return Nesting(contours, nesting.depths, around, beside)
 
 
 def placed_wanted(wanted: Wanted, is_closed: bool, placement: Placement) -> Wanted:
@@ -104,14 +122,21 @@ def told_as_drawn(placement: Placement, *source: str) -> Iterator[None]:
         raise error.within(*source) from None
 
 
-def placed_findings(place: Place, placement: Placement, size: XY) -> list[Finding]:
-    """Report where the part lies. `size`: its width and height as it is drawn, mm."""
-    if place == Place():
-        return []
-    mirror = Phrase("placed-mirror-x" if place.mirror == "x" else "placed-mirror-y") if place.mirror else None
-    turn = Phrase("placed-turned", turn=place.turn) if place.turn else None
-    report = [Finding("placed", origin=placement.origin, mirror=mirror, turn=turn)]
+def placed_findings(place: Place, placement: Placement, pattern: Pattern | None, size: XY) -> list[Finding]:
+    """Report where the part lies, and its copies. `size`: its width and height as it is drawn, mm."""
+    report = []
+    if place != Place():
+        mirror = Phrase("placed-mirror-x" if place.mirror == "x" else "placed-mirror-y") if place.mirror else None
+        turn = Phrase("placed-turned", turn=place.turn) if place.turn else None
+        report.append(Finding("placed", origin=placement.origin, mirror=mirror, turn=turn))
     if place.scale != 1:
         width, height = (side * place.scale for side in size)
         report.append(Finding("scaled", scale=place.scale, width=width, height=height))
+    if pattern:
+        copies = pattern.copies
+        if copies.around > 1:
+            report.append(Finding("copies-around", count=copies.around, angle=copies.angle, about=copies.about))
+        else:
+            about = {"columns": copies.columns, "rows": copies.rows, "step": copies.step}
+            report.append(Finding("copies-in-rows", count=copies.count, **about))
     return report

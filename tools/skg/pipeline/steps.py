@@ -24,11 +24,13 @@ from skg.geometry.placement import Placement
 from skg.geometry.plane import XY, shifted
 from skg.job.job import Chosen, Job
 from skg.job.matching import Known, Matches
+from skg.job.placing import Copies
 from skg.job.read_options import Wishes
 from skg.job.values import LEAST_FIT
 from skg.job.wanted import Partial, Wanted
 from skg.messages.finding import Finding, Phrase
 from skg.pipeline import placing
+from skg.planning.copies import Pattern, refuse_near
 from skg.planning.nesting import Nesting
 from skg.planning.plan import Asked, plan_nested
 from skg.planning.planned import PlannedContour
@@ -50,8 +52,8 @@ class DrawnJob:
     nesting: Nesting
     known: Known
     matches: Matches
-    #: The nesting as it lies on the machine, of the placement that was asked for last.
-    _placed: dict[Placement, Nesting] = field(default_factory=dict, compare=False)
+    #: The nesting as it lies on the machine, where that was asked for last.
+    _placed: dict[tuple, Nesting] = field(default_factory=dict, compare=False)
 
     @property
     def contours(self) -> list[Contour]:
@@ -73,17 +75,39 @@ class DrawnJob:
 
     def placement(self, job: Job) -> Placement:
         """Where the drawing lies on the machine; a `UserError` where that is too far away."""
-        cut = [contour for contour, want in zip(self.contours, wanted_of(job, self), strict=True) if want.cut]
-        return placing.placement_of(job.place, cut, self.matches.shift)
+        return placing.placement_of(job.place, self._cut(job), self.matches.shift)
 
-    def placed(self, placement: Placement) -> Nesting:
-        """The contours on the machine."""
-        if placement.is_nothing:
+    def pattern(self, job: Job) -> Pattern | None:
+        """The copies of it on the machine, None: it is alone; a `UserError` where they are too far away."""
+        return placing.pattern_of(self.copies(job), self.placement(job), self._cut(job))
+
+    def copies(self, job: Job) -> Copies:
+        """The copies that the job asks for; places are where the drawing is now."""
+        about = job.copies.about
+        return replace(job.copies, about=about and shifted(about, self.matches.shift))
+
+    def _cut(self, job: Job) -> list[Contour]:
+        """The contours that are cut."""
+        return [contour for contour, want in zip(self.contours, wanted_of(job, self), strict=True) if want.cut]
+
+    def placed(self, job: Job) -> Nesting:
+        """The contours on the machine; a `UserError` where they, or their copies, are too far away, or
+        these too near to each other."""
+        placement, pattern = self.placement(job), self.pattern(job)
+        if placement.is_nothing and not pattern:
             return self.nesting
-        if placement not in self._placed:
+        wanted = [want for want in wanted_of(job, self) if want.cut]
+        reach = max((2 * (want.lead + want.widest) for want in wanted), default=0.0)
+        kerf = 2 * max((want.widest for want in wanted), default=0.0)
+        key = placement, pattern, reach, kerf, job.machine.into
+        if key not in self._placed:
             self._placed.clear()
-            self._placed[placement] = placing.placed_nesting(self.nesting, placement)
-        return self._placed[placement]
+            if pattern:
+                with placing.told_as_drawn(placement):
+                    cut = [placement.contour(contour) for contour in self._cut(job)]
+                    refuse_near(pattern, cut, kerf, job.machine.into == "cut")
+            self._placed[key] = placing.placed_nesting(self.nesting, placement, pattern, reach)
+        return self._placed[key]
 
 
 def _moved(chosen: Chosen, by: XY) -> Chosen:
@@ -135,24 +159,25 @@ def plan_drawing(job: Job, drawn: DrawnJob) -> list[PlannedContour]:
     """The contours in the order in which they are cut. A contour that is lost, or that cannot be planned, is a
     `UserError`."""
     refuse_lost(job, drawn)
-    return plan_placed(job, drawn, drawn.placement(job), wanted_of(job, drawn))
+    return plan_placed(job, drawn, wanted_of(job, drawn))
 
 
 def plan_placed(
     job: Job,
     drawn: DrawnJob,
-    placement: Placement,
     wanted: list[Wanted],
     before: dict[int, tuple[Asked, PlannedContour]] | None = None,
 ) -> list[PlannedContour]:
     """Plan contours on the machine; see `plan_nested`. `wanted`: wishes for each, with places of the drawing."""
+    with placing.told_as_drawn(Placement(), drawn.name):
+        placement, nesting = drawn.placement(job), drawn.placed(job)
     on_machine = [
         placing.placed_wanted(want, contour.is_closed, placement)
         for contour, want in zip(drawn.contours, wanted, strict=True)
     ]
     starts = [placement.place(start) for start in starts_of(job, drawn)]
     with placing.told_as_drawn(placement, drawn.name):
-        return plan_nested(drawn.placed(placement), starts, on_machine, before)
+        return plan_nested(nesting, starts, on_machine, before)
 
 
 def starts_of(job: Job, drawn: DrawnJob) -> list[XY]:
@@ -174,14 +199,15 @@ def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> C
     progress("plan", 0, len(drawn.contours))
     routes = plan_drawing(job, drawn)
     placement = drawn.placement(job)
-    drawn.placed(placement).release()
+    drawn.placed(job).release()
     with placing.told_as_drawn(placement, drawn.name):
-        result = make(routes, job.drawing, job.machine, progress)
+        pattern = drawn.pattern(job)
+        result = make(routes, job.drawing, job.machine, progress, pattern)
     left = {number: UNWANTED for number, want in enumerate(wanted_of(job, drawn)) if not want.cut}
     left |= {contour.number: WITHIN if contour.is_within else SMALL for contour in result.left}
     account = drawn.reading.account(left) if left else drawn.reading.report
     result = _beside_file(result, job, drawn, account, placement)
-    return CutDrawing(result, account, _findings(job, drawn, account, result, placement), placement)
+    return CutDrawing(result, account, _findings(job, drawn, account, result, placement, pattern), placement)
 
 
 def _beside_file(result: CutResult, job: Job, drawn: DrawnJob, account: Account, placement: Placement) -> CutResult:
@@ -189,19 +215,29 @@ def _beside_file(result: CutResult, job: Job, drawn: DrawnJob, account: Account,
     these differ and no line of the report names the place, a `UserError`."""
     scale = job.place.scale
     named = [Named(mend.place, mend.size) for mend in account.mends]
-    for route in result.routes:
+    copies = drawn.copies(job)
+    # (those of the first copy are where the drawing has them)
+    count = len(result.routes) // copies.count
+    for route in result.routes[:count]:
         trims = (*route.remarks.loops, *route.remarks.whiskers)
         named += [Named(placement.back.place(trim.place), trim.length / scale) for trim in trims]
-    contours = as_drawn([route.contour for route in result.routes], job.place, placement.origin)
-    off, place = off_drawn(contours, drawn.reading.nominal, account.whole, named)
-    if off > NEAR:
-        raise UserError(Finding("off-the-file", place=place, off=1000 * off).within(drawn.name))
-    return replace(result, checked=replace(result.checked, off=result.checked.off + scale * off))
+    worst = 0.0
+    for number in range(copies.count):
+        contours = [route.contour for route in result.routes[number * count : (number + 1) * count]]
+        contours = as_drawn(contours, job.place, placement.origin, copies, number)
+        off, place = off_drawn(contours, drawn.reading.nominal, account.whole, named)
+        if off > NEAR:
+            raise UserError(Finding("off-the-file", place=place, off=1000 * off).within(drawn.name))
+        worst = max(worst, off)
+    return replace(result, checked=replace(result.checked, off=result.checked.off + scale * worst))
 
 
-def _findings(job: Job, drawn: DrawnJob, account: Account, result: CutResult, placement: Placement) -> list[Finding]:
+def _findings(
+    job: Job, drawn: DrawnJob, account: Account, result: CutResult, placement: Placement, pattern: Pattern | None
+) -> list[Finding]:
     """The report."""
-    report = [*account.report(), *_matched(job, drawn), *placing.placed_findings(job.place, placement, account.size)]
+    report = [*account.report(), *_matched(job, drawn)]
+    report += placing.placed_findings(job.place, placement, pattern, account.size)
     # (start holes are drilled on the machine)
     report += [
         finding if finding.code == "order-of-cutting" else placing.as_drawn(finding, placement)
@@ -255,7 +291,8 @@ def written(job: Job, drawn: DrawnJob) -> Job:
     place = job.place
     if isinstance(place.origin, tuple):
         place = replace(place, origin=shifted(place.origin, drawn.matches.shift))
-    return replace(job, sha256=drawn.sha256, box=box, place=place, starts=starts, contours=contours)
+    where = {"place": place, "copies": drawn.copies(job)}
+    return replace(job, sha256=drawn.sha256, box=box, starts=starts, contours=contours, **where)
 
 
 def choose(drawn: DrawnJob, number: int, **wanted: object) -> Chosen:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from skg.geometry.areas import areas_of
 from skg.geometry.contour import Contour
+from skg.geometry.edge_arrays import points_of
 from skg.geometry.field import Field
 from skg.geometry.holding import Holding
 from skg.messages.finding import Finding, Phrase
@@ -38,11 +39,12 @@ class Around(NamedTuple):
 @dataclass
 class Nesting:
     """Contours, and what lies in what. `depths`: how many lie around each, an uncut outline among these; `around`: the
-    uncut contours that some lie in, see `around_all`."""
+    uncut contours that some lie in, see `around_all`; `beside`: those of copies, which a start hole keeps off, too."""
 
     contours: Sequence[Contour]
     depths: list[int]
     around: dict[int, Around]
+    beside: Sequence[Contour] = ()
     _holding: Holding | None = None
     _field: Field | None = None
 
@@ -55,7 +57,7 @@ class Nesting:
         around = around_all(contours, depths, others, opened)
         if openings := [number for number, outer in around.items() if not (outer.is_frame or outer.gap)]:
             depths = deeper(contours, depths, openings)
-        return cls(contours, depths, around, holding)
+        return cls(contours, depths, around, (), holding)
 
     @property
     def holding(self) -> Holding:
@@ -66,7 +68,12 @@ class Nesting:
     @property
     def field(self) -> Field:
         """Distances to the contours."""
-        self._field = self._field or Field(self.holding.points, self.holding.first)
+        if self._field is None:
+            points, first = self.holding.points, self.holding.first
+            if self.beside:
+                more, counts = points_of(self.beside)
+                points, first = np.concatenate((points, more)), np.append(first, first[-1] + np.cumsum(counts))
+            self._field = Field(points, first)
         return self._field
 
     def release(self) -> None:

@@ -15,6 +15,7 @@ from skg.geometry.placement import Placement
 from skg.job import file as job_files
 from skg.job.job import Chosen, Job
 from skg.job.matching import Match
+from skg.job.placing import Copies, Place
 from skg.job.wanted import Partial
 from skg.messages.finding import Finding
 from skg.messages.render import speech
@@ -58,7 +59,7 @@ class Desk:
         self._before: dict[int, tuple[Asked, PlannedContour]] = {}
         self._plans = shown.Plans()
         #: The placement of that plan: where the drawing lies on the machine.
-        self._placement = Placement()
+        self._placement, self._nesting = Placement(), None
         #: Contours that were found again too far from where they were, without their settings, and how far, mm.
         self._doubts: dict[Chosen, float] = {}
         #: The error while no drawing is open.
@@ -196,14 +197,17 @@ class Desk:
         tried, routes, errors = list(wanted), [], []
         with _noted(errors):
             refuse_lost(self._job, self._drawn)
-        placement = Placement()
+        job, placement, nesting = self._job, Placement(), self._drawn.nesting
         with _noted(errors):
-            placement = self._drawn.placement(self._job)
-        if placement != self._placement:
-            self._placement, self._before, self._plans = placement, {}, shown.Plans()
+            placement, nesting = self._drawn.placement(job), self._drawn.placed(job)
+        if nesting is self._drawn.nesting:
+            # (what cannot be placed is shown as it is drawn)
+            job, placement = replace(job, place=Place(), copies=Copies()), Placement()
+        if nesting is not self._nesting:
+            self._placement, self._nesting, self._before, self._plans = placement, nesting, {}, shown.Plans()
         while not routes and len(errors) < _MOST_ERRORS:
             with _noted(errors):
-                routes = plan_placed(self._job, self._drawn, placement, tried, self._before)
+                routes = plan_placed(job, self._drawn, tried, self._before)
                 break
             number = errors[-1].contour
             if number is None:
