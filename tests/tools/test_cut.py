@@ -1087,7 +1087,7 @@ def test_a_part_fills_its_sheet(size: tuple[float, float]) -> None:
     width, height = size
     corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)]
     contour = Contour(tuple(map(Edge, corners, corners[1:] + corners[:1])), True)
-    stock = MachineSetup(offset=0.1, material="1.2379", thickness="20 mm")
+    stock = MachineSetup(offset=0.1, material="1.2379", thickness=20.0)
     job = make(plan([contour], [], Wanted(offset=0.1, lead=0.5)), "part", stock)
     sheet = SetupSheet(job, Facts("part.dxf", "part.3b", "mm"))
     sheet.draw()

@@ -19,7 +19,7 @@ from toolhelp import Run
 
 from skg.errors import UserError
 from skg.job.file import decoded, dump, encoded, from_data, load, to_data
-from skg.job.job import INTO, KINDS, ROMS, SMALL, Chosen, Job, MachineSetup, TapeForm
+from skg.job.job import INTO, KINDS, ROMS, SMALL, Chosen, Job, MachineSetup, Price, TapeForm
 from skg.job.read_options import OPEN, UNITS, Wishes
 from skg.job.wanted import LEAD_SHAPES, SIDES, Partial, Wanted
 from skg.messages.render import text
@@ -77,7 +77,8 @@ MACHINES = st.builds(
     small=st.sampled_from(SMALL),
     into=st.sampled_from(INTO),
     material=st.just("") | WORDS,
-    thickness=st.just("") | WORDS,
+    thickness=maybe(st.floats(1e-3, 1000)),
+    rates=st.lists(st.floats(1e-3, 1e6), max_size=3).map(tuple),
 )
 JOBS = st.builds(
     Job,
@@ -95,6 +96,7 @@ JOBS = st.builds(
         encoding=maybe(WORDS),
     ),
     machine=MACHINES,
+    price=st.builds(Price, st.lists(st.floats(0, 1e6), max_size=3).map(tuple), LENGTHS, LENGTHS, st.just("") | WORDS),
     tape=st.builds(TapeForm, st.sampled_from(sorted(STYLES)), st.booleans()),
     starts=st.lists(PLACES, max_size=3).map(tuple),
     default=st.builds(Partial, **OFTEN),
@@ -164,6 +166,10 @@ order = 3
         ("0.2", "0.2\noffset = 0.1", ["[machine]", "offset", "wire"]),
         ("wire = 0.2", "gap = 0.1", ["[machine]", "gap", "needs", "wire"]),
         ("0.2", '"0.2"', ["[machine]", "wire", "number"]),
+        ("0.2", '0.2\nthickness = "20 mm"', ["[machine]", "thickness", "number"]),
+        ("0.2", "0.2\nrates = [80, 0]", ["[machine]", "rates", "number above 0"]),
+        ("0.2", "0.2\nrates = []", ["[machine]", "rates", "each pass"]),
+        ("0.2", "0.2\n[price]\nper_hole = -1", ["[price]", "per_hole", "number"]),
         ("0.1, 0", "0, 0.1", ["[[contour]] 1", "cuts nothing"]),
         ("[0.1, 0]", "[]", ["[[contour]] 1", "passes"]),
         ("[0.1, 0]", '"0.1"', ["[[contour]] 1", "passes"]),
@@ -233,7 +239,8 @@ MORE = [
     "--start 12,15 --start 30,15 --wire 0.25 --feed 3.5 --ram 16",
     "--layer PART --units mm --tolerance 0.01 --fit-tolerance 0.001 --offset 0.3 --small leave",
     "--offset 0.1 --tab 2 --slug-tab 1 --tabs 2 --passes 0.1,0.05 --tab-passes 0.06 --overlap 0.3 --lead 1",
-    "--rom standard --offset 0.1 --tab 2 --passes 0.1,0.05 --material '1.2379' --thickness '20 mm' --style padded",
+    "--rom standard --offset 0.1 --tab 2 --passes 0.1,0.05 --material '1.2379' --thickness 20 --style padded",
+    "--thickness 20 --rates 80,120 --per-area 0.01 --per-hole 5 --per-pass 2 --currency 元",
 ]
 
 

@@ -65,7 +65,7 @@ def test_the_command_line_and_the_job_beat_it(run: Run, tmp_path: Path, setups: 
     """The tape is that of the same options; what is given beats the setup, which the report names, with what it set."""
     path, made, other, job = part(tmp_path), tmp_path / "a.3b", tmp_path / "b.3b", tmp_path / "a.job.toml"
     told = findings(run, path, "-o", made, "--setup", "细丝 0.2", "--feed", "5", "--save-job", job)
-    assert told["setup-used"]["name"] == "细丝 0.2" and told["cut-length"]["feed"] == 5
+    assert told["setup-used"]["name"] == "细丝 0.2" and told["cut-length"]["pace"]["values"] == {"feed": 5}
     assert not any("feed" in text for text in told["setup-used"]["settings"])
     findings(run, path, "-o", other, "--wire", 0.2, "--gap", 0.01, "--passes", "0.05,0", "--style", "numbered")
     assert made.read_bytes() == other.read_bytes() and made.read_bytes().startswith(b"N   1: B ")
@@ -73,7 +73,9 @@ def test_the_command_line_and_the_job_beat_it(run: Run, tmp_path: Path, setups: 
     assert "setup-used" not in findings(run, job, "-o", other) and made.read_bytes() == other.read_bytes()
     job.write_text('schema = 1\ndrawing = "part.dxf"\n[machine]\noffset = 0.3\nfeed = 5\n[default]\npasses = [0]\n')
     told = findings(run, job, "-o", made, "--setup", "细丝 0.2")
-    assert told["setup-used"]["settings"] == ['style = "numbered"'] and told["cut-length"]["feed"] == 5
+    assert told["setup-used"]["settings"] == ['style = "numbered"'] and told["cut-length"]["pace"]["values"] == {
+        "feed": 5
+    }
     findings(run, path, "-o", other, "--offset", 0.3, "--style", "numbered")
     assert made.read_bytes() == other.read_bytes()
     assert "细丝 0.2" in run("cut", path, "-o", made, "--setup", "细丝 0.2", "--quiet").stderr

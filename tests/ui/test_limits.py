@@ -283,8 +283,9 @@ ODD = (None, True, -1, 1e308, 10**400, "", "x" * 10_000, [], {}, [1, 2], [[]], [
 TABLES = {
     "": "schema drawing sha256 box starts read machine default layer contour odd",
     "read": "units open tolerance start_layer fit_tolerance encoding layers bridges odd",
-    "machine": "wire gap offset rom ram feed small into material thickness",
+    "machine": "wire gap offset rom ram feed small into material thickness rates",
     "default": "cut side passes tab slug_tab tabs tab_passes overlap lead lead_shape reverse odd",
+    "price": "per_area per_hole per_pass currency odd",
     "tape": "style short_name odd",
     "contour": "layer kind at size offset start entry order tab tabs passes",
 }

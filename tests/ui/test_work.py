@@ -558,6 +558,7 @@ def test_setups(serve: Callable[[], Server], tmp_path: Path) -> None:
     assert (known["setups"], known["last"]) == ([], "") and "wire" in known["keys"]["machine"]
     # (as a job has it: what is usual is not said)
     tables = {"machine": {"wire": 0.2, "feed": 5}, "default": {"passes": [0.05, 0]}, "tape": {"style": "spaced"}}
+    tables["price"] = {"per_hole": 2.5}
     known = page.done("PUT", "/api/setups", {"name": "细丝", "tables": tables})
     tables["machine"].pop("feed")
     assert known["setups"] == [{"name": "细丝", "tables": tables}] and known["last"] == "细丝"

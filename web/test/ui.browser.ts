@@ -792,6 +792,39 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await damaged.context.close();
   });
 
+  test("thickness, rates and prices: area, time and price stand beside the tape's figures, and on the sheet", async () => {
+    const { url } = await start("square.dxf", dxf(...box(0, 0, 30, 20)));
+    const { page, context } = await visit(url, { viewport: LOW });
+    await drawn(page);
+    await page.fill("#field-thickness", "20 mm");
+    await page.press("#field-thickness", "Enter");
+    await message(page, /Thickness: a number/);
+    await type(page, "field-thickness", "10");
+    await page.click("#more summary");
+    for (const [id, text] of [
+      ["rates", "40"],
+      ["per_area", "0.015"],
+      ["per_hole", "2.5"],
+      ["currency", "元"],
+    ])
+      await type(page, `field-${id}`, text as string);
+    await cut(page);
+    // (100 mm around and 3 mm of lead, forth and back, 10 mm thick)
+    await says(page, "#outcome", /106\.0 mm · 27 min · 1060 mm² · 18\.40 元$/);
+    await page.click("#tab-report");
+    await says(page, "#report", /price 18\.40 元: 15\.90 for 1060 mm², 2\.50 for 1 start hole/);
+    await page.click("#tab-sheet");
+    await page.waitForSelector("#sheet img");
+    const sheet = await page.evaluate(async () => {
+      const headers = { Authorization: `Bearer ${sessionStorage.getItem("token")}` };
+      return (await fetch("api/run/1/sheet.svg", { headers })).text();
+    });
+    assert.match(sheet, /18\.40 元/);
+    assert.deepEqual(await axe(page), []);
+    await shot(page, "price");
+    await context.close();
+  });
+
   test("an open end is bridged by a click, kept in the job, undone; distance, radius and angle are measured", async () => {
     const open = dxf(...box(0, 0, 60, 40).slice(0, 3), line(0, 40, 0, 0.8), circle(15, 20, 5));
     const { url, file } = await start("open.dxf", open);

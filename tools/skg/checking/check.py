@@ -42,13 +42,14 @@ _TOGETHER = 50_000
 @dataclass(frozen=True)
 class Checked:
     """A tape as it was followed: the largest distance from the drawing (mm), what is wrong; `fallen`: tabs that hold
-    nothing."""
+    nothing; `lengths`: of all cuts of a first pass, a second one and so on, mm; a tab's cuts are such, too."""
 
     followed: Followed
     off: float
     faults: list[Misfit]
     crossings: list[Crossing]
     fallen: list[Fallen]
+    lengths: tuple[float, ...]
 
     @property
     def cuts(self) -> list[Stretch]:
@@ -82,7 +83,8 @@ def check(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> C
             worst = max(worst, off, far)
     crossings = into_others(path, beside, near_others, partial(_pieces, routes))
     misfits = [*faults, *(missed[key] for key in sorted(missed))]
-    return Checked(followed, worst, misfits, crossings, [] if misfits else list(fallen(path, followed.cuts, routes)))
+    fell = [] if misfits else list(fallen(path, followed.cuts, routes))
+    return Checked(followed, worst, misfits, crossings, fell, path.lengths(routes))
 
 
 def _shares(path: WirePath, routes: list[PlannedContour], reach: float) -> Iterator[Share]:

@@ -116,6 +116,13 @@ class WirePath:
                 some = slice(end - count, end)
                 self.passes[some] = _passes(cut.passes, routes[cut.route], self.pieces.end[some])
 
+    def lengths(self, routes: list[PlannedContour]) -> tuple[float, ...]:
+        """Length of the wire's path in each pass, mm: the cuts of a tab begin anew with the first."""
+        of_contour = np.array([len(route.passes) for route in routes])[self.pieces.owner]
+        # (an open contour has one pass; where passes cannot be told apart they are the first)
+        turns = np.maximum(np.where(self.passes < of_contour, self.passes, self.passes - of_contour), 0)
+        return tuple(np.bincount(turns, self.pieces.length).tolist())
+
     def of_pass(self, number: int) -> Pieces:
         """The pieces; those that surely belong to other passes are nobody's."""
         self.pieces.index()  # (made once: each copy has it)

@@ -74,6 +74,11 @@ MORE_PASSES = JobValue(
 )
 #: X,Y or a word for a place of the part's box.
 ORIGIN = JobValue("X,Y|WORD", lambda value: values.origin(numbers_in(value) or value))
+#: A number for each pass; further passes are as the last.
+RATES = JobValue(
+    "N,N,...", lambda value: values.by_pass(is_open=True)(value if isinstance(value, tuple) else numbers_in(value))
+)
+PRICES = JobValue("N,N,...", lambda value: values.by_pass()(value if isinstance(value, tuple) else numbers_in(value)))
 #: A text of one line.
 WORDS = JobValue("text", values.text)
 
@@ -263,7 +268,21 @@ _BESIDE_A_JOB = (
 @click.option("--ram", default=8, metavar="KIB", type=click.IntRange(*values.RAM), help="The board's RAM, KiB.")
 @feed_option
 @click.option("--material", metavar="TEXT", type=WORDS, help="Material of the stock, for the setup sheet.")
-@click.option("--thickness", metavar="TEXT", type=WORDS, help="Thickness of the stock, for the setup sheet.")
+@click.option(
+    "--thickness", type=Millimetres(0, min_open=True), help="Thickness of the stock, for time, price and setup sheet."
+)
+@click.option(
+    "--rates",
+    metavar="N,N,...",
+    type=RATES,
+    help="mm² a minute in each pass: with --thickness the time goes by these, and not by --feed.",
+)
+@click.option("--per-area", metavar="N,N,...", type=PRICES, help="Price of a mm² in each pass.")
+@click.option("--per-hole", metavar="N", type=FiniteRange(0, values.MOST_MONEY), help="Price of a start hole.")
+@click.option(
+    "--per-pass", metavar="N", type=FiniteRange(0, values.MOST_MONEY), help="Price of a pass along a contour."
+)
+@click.option("--currency", metavar="TEXT", type=WORDS, help="Currency of the prices, behind each sum.")
 @click.option(
     "--style",
     type=click.Choice(list(STYLES)),
@@ -332,6 +351,7 @@ def _in_json(cut: CutDrawing, more: list[Finding], way: Speech) -> dict[str, obj
         "length": round(result.cut_length, 4),
         "seconds": round(result.seconds, 1),
         "off_um": round(1000 * result.checked.off, 3),
+        **cut.cost.data(),
         "starts": [list(hole) for route in result.routes for hole in route.holes],
     }
 
@@ -386,7 +406,8 @@ def _cut(
 
         tape = Path(output).name if output != "-" else "-"
         drawing = Path(path).name if path != "-" else "-"
-        write_sheet(cut.result, Facts(drawing, tape, cut.account.units, job.place.scale), sheet, form)
+        facts = Facts(drawing, tape, cut.account.units, job.place.scale, tuple(cut.cost.figures()))
+        write_sheet(cut.result, facts, sheet, form)
     if save_job:
         write_bytes(save_job, job_files.encoded(written(job, drawn)))
     write_bytes(output, made)  # last: no tape where something else could not be written

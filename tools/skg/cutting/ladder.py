@@ -66,7 +66,7 @@ class CutResult:
     @property
     def seconds(self) -> float:
         """Time of cutting, s."""
-        return self.cut_length / self.machine.feed * 60
+        return sum(length / self.machine.pace(turn) for turn, length in enumerate(self.checked.lengths)) * 60
 
 
 #: Why a contour does not go through: an error of the ROM, or what the check finds wrong.

@@ -10,6 +10,7 @@ from skg.checking.wire_path import LIMIT
 from skg.cutting.ladder import CutResult
 from skg.cutting.manner import manners, numbered, stops
 from skg.cutting.refusal import depth
+from skg.job.job import MachineSetup
 from skg.messages.finding import Finding, Phrase
 from skg.planning import nesting
 from skg.planning.nesting import in_brackets
@@ -63,7 +64,7 @@ def _facts(result: CutResult, offset: float) -> Iterator[Finding]:
         "cut-length",
         length=result.cut_length,
         time=duration(result.seconds),
-        feed=machine.feed,
+        pace=pace(machine),
         blocks=Phrase("count-blocks", count=len(result.tape.blocks)),
         stops=Phrase("count-stops", count=len(result.tape.stops)),
     )
@@ -75,6 +76,11 @@ def _facts(result: CutResult, offset: float) -> Iterator[Finding]:
     yield Finding("checked", off=1000 * result.checked.off, closing=closing)
     if drift:
         yield Finding("drift", drift=1000 * drift)
+
+
+def pace(machine: MachineSetup) -> Phrase:
+    """The feed that the time goes by, or the rates."""
+    return Phrase("at-rates", rates=machine.rates) if machine.has_rates else Phrase("at-feed", feed=machine.feed)
 
 
 def _crossings(result: CutResult) -> Iterator[Finding]:

@@ -16,7 +16,7 @@ from typing import Any
 
 from skg.errors import UserError
 from skg.job import values
-from skg.job.job import INTO, KINDS, ROMS, SMALL, Chosen, Job, MachineSetup, TapeForm
+from skg.job.job import INTO, KINDS, ROMS, SMALL, Chosen, Job, MachineSetup, Price, TapeForm
 from skg.job.placing import MIRRORS, Copies, Place
 from skg.job.read_options import OPEN, UNITS, Wishes
 from skg.job.wanted import LEAD_SHAPES, SIDES, Partial
@@ -52,7 +52,8 @@ _MACHINE: dict[str, values.Check] = {
     "small": values.choice(SMALL),
     "into": values.choice(INTO),
     "material": values.text,
-    "thickness": values.text,
+    "thickness": values.number(0.0, values.FARTHEST, is_open=True),
+    "rates": values.by_pass(is_open=True),
 }
 _PLACE: dict[str, values.Check] = {
     "origin": values.origin,
@@ -95,6 +96,12 @@ _CONTOUR: dict[str, values.Check] = {
     "order": values.whole(1, 1_000_000),
 }
 TAPE: dict[str, values.Check] = {"style": values.choice(STYLES), "short_name": values.flag}
+_PRICE: dict[str, values.Check] = {
+    "per_area": values.by_pass(),
+    "per_hole": values.number(0.0, values.MOST_MONEY),
+    "per_pass": values.number(0.0, values.MOST_MONEY),
+    "currency": values.text,
+}
 _TOP: dict[str, values.Check] = {
     "schema": values.whole(SCHEMA, SCHEMA),
     "drawing": values.file_name,
@@ -103,7 +110,15 @@ _TOP: dict[str, values.Check] = {
     "starts": values.places,
 }
 #: The tables of a file, with their keys; those of lists.
-TABLES = {"read": _READ, "machine": _MACHINE, "place": _PLACE, "copies": _COPIES, "default": _DEFAULT, "tape": TAPE}
+TABLES = {
+    "read": _READ,
+    "machine": _MACHINE,
+    "place": _PLACE,
+    "copies": _COPIES,
+    "default": _DEFAULT,
+    "tape": TAPE,
+    "price": _PRICE,
+}
 _LISTS = {"layer": _LAYER, "contour": _CONTOUR}
 #: What each table is made into.
 _PARTS: dict[str, Callable[..., Any]] = {
@@ -113,12 +128,14 @@ _PARTS: dict[str, Callable[..., Any]] = {
     "copies": Copies,
     "default": Partial,
     "tape": TapeForm,
+    "price": Price,
 }
 #: The keys that a setup may have: what a shop keeps for one machine and wire.
 SETUP: dict[str, tuple[str, ...]] = {
-    "machine": ("wire", "gap", "offset", "rom", "ram", "feed"),
+    "machine": ("wire", "gap", "offset", "rom", "ram", "feed", "rates"),
     "default": ("passes", "tab_passes"),
     "tape": tuple(TAPE),
+    "price": tuple(_PRICE),
 }
 
 

@@ -31,7 +31,8 @@ class MachineSetup:
 
     `wire`: its diameter, `gap`: the spark gap on each side, `offset`: the wire's distance from the contours instead of
     these, all mm, None: not told. `rom`: one of `ROMS`; `ram`: KiB; `feed`: mm/min. `small`, `into`: what becomes of
-    contours without room, empty where nobody is asked. `material`, `thickness`: texts for the setup sheet.
+    contours without room, empty where nobody is asked. `material`: a text for the setup sheet; `thickness`: of the
+    stock, mm; `rates`: mm² a minute in each pass, further passes as the last: with both the time goes by these.
     """
 
     wire: float | None = None
@@ -43,7 +44,8 @@ class MachineSetup:
     small: str = SMALL[0]
     into: str = INTO[0]
     material: str = ""
-    thickness: str = ""
+    thickness: float | None = None
+    rates: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
         if self.offset is not None and (self.wire is not None or self.gap):
@@ -57,6 +59,17 @@ class MachineSetup:
     def is_without_drift(self) -> bool:
         """Tell whether a tape's blocks start where the controller stands."""
         return self.rom == "no-drift"
+
+    def pace(self, turn: int) -> float:
+        """The feed in a pass (from 0), mm/min."""
+        if not self.has_rates or self.thickness is None:
+            return self.feed
+        return self.rates[min(turn, len(self.rates) - 1)] / self.thickness
+
+    @property
+    def has_rates(self) -> bool:
+        """Tell whether the time goes by rates, and not by the feed."""
+        return bool(self.rates and self.thickness)
 
     @property
     def distance(self) -> float:
@@ -76,6 +89,17 @@ class TapeForm:
         """Raise a `UserError` where the control does not take a tape of that name."""
         if self.short_name and not re.fullmatch(r"[A-Za-z0-9_-]{1,8}\.3b", name, re.IGNORECASE):
             raise UserError(Finding("name-not-short").within(name))
+
+
+@dataclass(frozen=True)
+class Price:
+    """Prices; `currency`: a text. `per_area`: of a mm² in each pass, further passes as the last; `per_hole`: of a start
+    hole; `per_pass`: of each pass along a contour."""
+
+    per_area: tuple[float, ...] = ()
+    per_hole: float = 0.0
+    per_pass: float = 0.0
+    currency: str = ""
 
 
 @dataclass(frozen=True)
@@ -115,6 +139,7 @@ class Job:
     tape: TapeForm = TapeForm()
     place: Place = Place()
     copies: Copies = Copies()
+    price: Price = Price()
     starts: tuple[XY, ...] = ()
     default: Partial = Partial()
     layers: Mapping[str, Partial] = field(default_factory=dict)

@@ -27,6 +27,8 @@ MOST_SCALE = 1000.0
 RAM = 2, 56
 #: No place is farther from the origin, no length longer, mm: a tape ends there.
 FARTHEST = 100_000.0
+#: No price is higher, no rate faster.
+MOST_MONEY = 1e9
 #: No text is longer.
 _LONGEST = 200
 
@@ -184,6 +186,20 @@ def passes(value: object, least: int = 1) -> tuple[float, ...]:
     if any(after > before for before, after in pairwise(allowances)):
         raise Wrong(Phrase("value-rising"))
     return allowances
+
+
+def by_pass(is_open: bool = False) -> Check:
+    """Make the check of a number for all passes, or of a list with one for each; `is_open`: above 0."""
+    of_one = number(0.0, MOST_MONEY, is_open)
+
+    def check(value: object) -> tuple[float, ...]:
+        if not isinstance(value, list | tuple):
+            return (of_one(value),)
+        if not 0 < len(value) <= _LONGEST:
+            raise Wrong(Phrase("value-by-pass"))
+        return tuple(map(of_one, value))
+
+    return check
 
 
 def more_passes(value: object) -> tuple[float, ...]:

@@ -14,6 +14,7 @@ SETTINGS: dict[str, tuple[str, str]] = {
     "wire": ("machine", "label-wire"),
     "gap": ("machine", "label-gap"),
     "offset": ("machine", "label-offset"),
+    "thickness": ("machine", "label-thickness"),
     "rom": ("machine", "label-rom"),
     "ram": ("machine", "label-ram"),
     "small": ("machine", "label-small"),

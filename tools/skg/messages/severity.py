@@ -83,6 +83,7 @@ _GUESS = frozenset(
     {
         "ends-joined",
         "more-joined",
+        "no-thickness",
         "size-guessed",
     }
 )

@@ -19,10 +19,11 @@ from matplotlib.transforms import Affine2D
 from skg.checking.check import drawn
 from skg.cutting.ladder import CutResult
 from skg.cutting.manner import manners, stops
+from skg.cutting.report import pace
 from skg.geometry.arrays import numbers_up_to
 from skg.geometry.contour import Places
 from skg.geometry.plane import XY, distance
-from skg.messages.finding import Phrase
+from skg.messages.finding import Finding, Phrase
 from skg.messages.render import speech, text
 from skg.pictures.page import as_it_stands, installed, save
 from skg.pictures.plot import FEW, outlines
@@ -77,12 +78,14 @@ _INK, _WIRE, _MARK, _GREY = "#000000", "#0072b2", "#d55e00", "#777777"
 
 @dataclass(frozen=True)
 class Facts:
-    """Facts for the sheet's foot: the drawing's name, the tape's, the units, how many times as large it is cut."""
+    """Facts for the sheet's foot: the drawing's name, the tape's, the units, how many times as large it is cut; area
+    and price."""
 
     drawing: str
     tape: str
     units: str
     scale: float = 1.0
+    cost: tuple[Finding, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -207,6 +210,8 @@ class SetupSheet:
         lines = [texts[index : index + 2] for index in range(0, len(texts), 2)]
         if reasons := tuple(stops(self.result.routes)):
             lines.insert(0, [text(Phrase("two-stops", reasons=reasons))])
+        if self.facts.cost:
+            lines.insert(0, [text(finding) for finding in self.facts.cost])
         return lines
 
     def _measure(self) -> None:
@@ -495,7 +500,7 @@ class SetupSheet:
             ),
             (
                 ("material", setup.material or untold),
-                ("thickness", setup.thickness or untold),
+                ("thickness", f"{short(setup.thickness)} mm" if setup.thickness else untold),
                 ("wire", wire),
                 ("rom", setup.rom),
             ),
@@ -503,7 +508,7 @@ class SetupSheet:
                 ("start", f"{shown(result.routes[0].start)} mm"),
                 ("stops", text(Phrase("sheet-stops-and-blocks", stops=len(result.tape.stops), blocks=blocks))),
                 ("length", f"{result.cut_length:.1f} mm"),
-                ("time", text(Phrase("sheet-time-at", time=duration(result.seconds), feed=setup.feed))),
+                ("time", text(Phrase("sheet-time-at", time=duration(result.seconds), pace=pace(setup)))),
             ),
         )
         wide = (page[0] - 2 * _MARGIN) / len(columns)

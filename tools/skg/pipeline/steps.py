@@ -15,6 +15,7 @@ from hashlib import sha256
 
 from skg.checking.as_drawn import as_drawn
 from skg.checking.check_drawn import NEAR, Named, off_drawn
+from skg.cutting.cost import Cost
 from skg.cutting.ladder import CutResult, make
 from skg.cutting.progress import Progress, in_silence
 from skg.cutting.report import findings
@@ -121,11 +122,12 @@ def _moved(chosen: Chosen, by: XY) -> Chosen:
 
 @dataclass(frozen=True)
 class CutDrawing:
-    """A checked tape with its report. `account`: that of the drawing, with what was left out among what is not cut;
-    `placement`: where the drawing lies on the machine."""
+    """A checked tape with its report, and its cost. `account`: that of the drawing, with what was left out among what
+    is not cut; `placement`: where the drawing lies on the machine."""
 
     result: CutResult
     account: Account
+    cost: Cost
     findings: list[Finding]
     placement: Placement = Placement()
 
@@ -207,7 +209,9 @@ def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> C
     left |= {contour.number: WITHIN if contour.is_within else SMALL for contour in result.left}
     account = drawn.reading.account(left) if left else drawn.reading.report
     result = _beside_file(result, job, drawn, account, placement)
-    return CutDrawing(result, account, _findings(job, drawn, account, result, placement, pattern), placement)
+    cost = Cost.of(result, job.price)
+    report = [*_findings(job, drawn, account, result, placement, pattern), *cost.findings()]
+    return CutDrawing(result, account, cost, report, placement)
 
 
 def _beside_file(result: CutResult, job: Job, drawn: DrawnJob, account: Account, placement: Placement) -> CutResult:

@@ -139,7 +139,8 @@ class Desk:
             path = str(Path(folder) / f"sheet.{form}")
             before, speech.language = speech.language, language or speech.language
             try:
-                write_sheet(cut.result, Facts(job.drawing, tape, cut.account.units, job.place.scale), path, form)
+                facts = Facts(job.drawing, tape, cut.account.units, job.place.scale, tuple(cut.cost.figures()))
+                write_sheet(cut.result, facts, path, form)
             finally:
                 speech.language = before
             return Path(path).read_bytes()

@@ -295,6 +295,8 @@ def result(cut: CutDrawing) -> dict[str, Any]:
         "stops": len(made.tape.stops),
         "length": round(made.cut_length, _LENGTH),
         "seconds": round(made.seconds, 1),
+        "area": cut.cost.area or None,
+        "price": cut.cost.price,
         "off_um": round(1000 * made.checked.off, 3),
         "start": place(made.routes[0].start),
         "back": [*back.matrix, *back.origin, *back.at],

@@ -5,7 +5,7 @@ import { type Edited, set } from "./edits.ts";
 import { Field, type Plan, type Value } from "./inputs.ts";
 import { w } from "./words.ts";
 
-type Part = "machine" | "read";
+type Part = "machine" | "read" | "price";
 
 /** `usual`: the value in force where the job has none. */
 interface Entry extends Plan {
@@ -19,7 +19,7 @@ const FIRST: readonly Entry[] = [
   { part: "machine", key: "wire", label: "wire", kind: "number", unit: "mm", example: "0.18" },
   { part: "machine", key: "gap", label: "gap", kind: "number", unit: "mm", example: "0.01" },
   { part: "machine", key: "feed", label: "feed", kind: "number", unit: "mm/min", example: "5", usual: 5 },
-  { part: "machine", key: "thickness", label: "thickness", kind: "text", unit: "mm" },
+  { part: "machine", key: "thickness", label: "thickness", kind: "number", unit: "mm", example: "40" },
 ];
 /** Beside the drawing's size. */
 const UNITS: Entry = {
@@ -32,6 +32,11 @@ const UNITS: Entry = {
 };
 const MORE: readonly Entry[] = [
   { part: "machine", key: "offset", label: "machineOffset", kind: "number", unit: "mm", example: "0.1" },
+  { part: "machine", key: "rates", label: "rates", kind: "list", example: "80, 120" },
+  { part: "price", key: "per_area", label: "perArea", kind: "list", example: "0.01, 0.004" },
+  { part: "price", key: "per_hole", label: "perHole", kind: "number", example: "5", usual: 0 },
+  { part: "price", key: "per_pass", label: "perPass", kind: "number", example: "2", usual: 0 },
+  { part: "price", key: "currency", label: "currency", kind: "text" },
   { part: "machine", key: "material", label: "material", kind: "text" },
   {
     part: "machine",

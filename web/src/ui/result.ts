@@ -16,6 +16,7 @@ import type { Saving } from "./saving.ts";
 import { Gone, Refusal, type Server } from "./server.ts";
 import type { TellTale } from "./told.ts";
 import type { Result, Run } from "./types.ts";
+import { visible } from "./visible.ts";
 import { type Word, w } from "./words.ts";
 
 const STAGES: Record<Run["stage"], Word> = { plan: "stagePlan", board: "stageBoard", check: "stageCheck", write: "stageWrite" };
@@ -209,8 +210,9 @@ export class Results {
   }
 }
 
-function figures({ blocks, stops, length, seconds }: Result): string {
+function figures({ blocks, stops, length, seconds, area, price }: Result): string {
   const minutes = Math.round(seconds / 60);
   const time = minutes < 60 ? w("minutes", minutes) : w("hours", Math.floor(minutes / 60), String(minutes % 60).padStart(2, "0"));
-  return w("figures", blocks, stops, length.toFixed(1), time);
+  const cost = [area === null ? "" : w("area", String(area)), visible(price)].filter(Boolean);
+  return [w("figures", blocks, stops, length.toFixed(1), time), ...cost].join(" · ");
 }

@@ -51,6 +51,7 @@ export interface Job {
   readonly machine?: Values;
   readonly default?: Wanted;
   readonly tape?: Values;
+  readonly price?: Values;
   readonly layer?: readonly LayerWanted[];
   readonly contour?: readonly Chosen[];
 }
@@ -196,6 +197,9 @@ export interface Result {
   readonly stops: number;
   readonly length: number;
   readonly seconds: number;
+  /** mm², where the thickness is known; with its currency, "" without prices. */
+  readonly area: number | null;
+  readonly price: string;
   readonly off_um: number;
   readonly tape_name: string;
   readonly start: Point;
