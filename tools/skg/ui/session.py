@@ -51,7 +51,7 @@ class Conflict(UserError):
 
 
 @dataclass
-class Run:
+class CutRun:
     """A tape in the making, or made, of the job of a drawing at a revision. `changes`: count of changes since it began;
     `files`: those that are made."""
 
@@ -92,7 +92,7 @@ class Session:
         #: The reason why the drawing could not be read, as the page is told of it; it has ended the process.
         self._unread: dict | None = None
         self._is_unsafe = False
-        self._run: Run | None = None
+        self._run: CutRun | None = None
         self._runs = 0
         self._data = b""
         #: The drawing's file and the job's, where these were named on the command line; the first as it was read.
@@ -412,7 +412,7 @@ class Session:
             self._is_long = True
             with self._news:
                 self._runs += 1
-                run = self._run = Run(self._runs, self._state["name"], self._rev)
+                run = self._run = CutRun(self._runs, self._state["name"], self._rev)
             Thread(target=self._make, args=(run,), daemon=True).start()
         except BaseException:
             self._is_long = False
@@ -420,7 +420,7 @@ class Session:
             raise
         return run.number
 
-    def _make(self, run: Run) -> None:
+    def _make(self, run: CutRun) -> None:
         def progress(stage: str, done: int, total: int) -> None:
             self._tell(run, stage=stage, done=done, total=total)
 
@@ -437,7 +437,7 @@ class Session:
                     self._worker.begin()
             self._turn.release()
 
-    def _tell(self, run: Run, **news: object) -> None:
+    def _tell(self, run: CutRun, **news: object) -> None:
         """Change a run that is on, and tell of it."""
         with self._news:
             if run.state == "running":
@@ -446,7 +446,7 @@ class Session:
                 run.changes += 1
                 self._news.notify_all()
 
-    def _known(self, number: int) -> Run:
+    def _known(self, number: int) -> CutRun:
         if self._run is None or self._run.number != number:
             raise UserError(Finding("no-run", number=number))
         return self._run
