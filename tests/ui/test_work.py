@@ -575,3 +575,19 @@ def test_setups(serve: Callable[[], Server], tmp_path: Path) -> None:
     assert page.done("POST", "/api/setups", {"name": ""})["last"] == ""
     assert "machine" not in page.open(plate(tmp_path))["job"]
     assert [one["name"] for one in page.done("DELETE", "/api/setups", {"name": "细丝"})["setups"]] == ["bad"]
+
+
+def test_start_holes_are_saved(serve: Callable[[], Server], tmp_path: Path) -> None:
+    """As a list, and as a drilling program where the thickness is known; nothing is saved where it is not."""
+    page = Page(serve(plate(tmp_path)))
+    state = page.state()
+    number, _ = page.cut(state["rev"])
+    answer = page.call("POST", "/api/save", {"run": number, "what": ["tape", "drill"]})
+    assert answer.status == 400 and not list(tmp_path.glob("*.3b"))
+    state = page.put(page.state(), machine={"thickness": 10})
+    number, _ = page.cut(state["rev"])
+    written = page.done("POST", "/api/save", {"run": number, "what": ["holes", "drill"], "name": "teil"})["written"]
+    assert written == ["teil-holes.csv", "teil-holes.nc"]
+    assert (tmp_path / "teil-holes.csv").read_text().count("opening") == 2
+    assert (tmp_path / "teil-holes.nc").read_bytes() == page.get(f"/api/run/{number}/drill").body
+    assert b"G81" in page.get(f"/api/run/{number}/drill").body

@@ -793,7 +793,7 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
   });
 
   test("thickness, rates and prices: area, time and price stand beside the tape's figures, and on the sheet", async () => {
-    const { url } = await start("square.dxf", dxf(...box(0, 0, 30, 20)));
+    const { url, file } = await start("square.dxf", dxf(...box(0, 0, 30, 20)));
     const { page, context } = await visit(url, { viewport: LOW });
     await drawn(page);
     await page.fill("#field-thickness", "20 mm");
@@ -820,6 +820,13 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
       return (await fetch("api/run/1/sheet.svg", { headers })).text();
     });
     assert.match(sheet, /18\.40 元/);
+    await page.click("#save");
+    await page.check("[name=what][value=holes]");
+    await page.check("[name=what][value=drill]");
+    await page.click("#save-yes");
+    await message(page, /square-holes\.csv, square-holes\.nc/);
+    assert.match(file("square-holes.csv").toString(), /^1,15\.000,-3\.000,1,outline\r$/m);
+    assert.match(file("square-holes.nc").toString(), /G81X15Y-3Z-12R2F100/);
     assert.deepEqual(await axe(page), []);
     await shot(page, "price");
     await context.close();

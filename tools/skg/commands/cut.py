@@ -104,6 +104,7 @@ _BESIDE_A_JOB = (
     "list_layers",
     "program",
     "sheet",
+    "holes",
     "save_job",
     "setup",
     "quiet",
@@ -117,6 +118,12 @@ _BESIDE_A_JOB = (
 @click.option("--list-layers", is_flag=True, help="Show the layers and what is on them, and cut nothing.")
 @click.option("--program", metavar="FILE", type=click.Path(allow_dash=True), help="Also write the SKG program.")
 @click.option("--sheet", metavar="FILE", type=click.Path(), help="Also write the setup sheet: .pdf, .svg or .png.")
+@click.option(
+    "--holes",
+    metavar="FILE",
+    type=click.Path(),
+    help="Also write the start holes for who drills them: .csv, a list, or .nc, a drilling program (G81).",
+)
 @click.option("--wire", type=Millimetres(0, 2 * MOST_OFFSET, min_open=True), help="Diameter of the wire.")
 @click.option(
     "--gap",
@@ -307,6 +314,7 @@ def command(
     list_layers: bool,
     program: str | None,
     sheet: str | None,
+    holes: str | None,
     setup: str | None,
     save_job: str | None,
     dialect: GcodeDialect | None,
@@ -323,7 +331,7 @@ def command(
     """
     way = Speech(speech.language, Medium.JOB if is_job_file(file) else Medium.COMMAND)
     try:
-        report = _cut(context, file, output, list_layers, program, sheet, setup, save_job, dialect, **options)
+        report = _cut(context, file, output, list_layers, program, sheet, holes, setup, save_job, dialect, **options)
     except UserError as error:
         if not in_json:
             error.way = way
@@ -363,6 +371,7 @@ def _cut(
     list_layers: bool,
     program: str | None,
     sheet: str | None,
+    holes: str | None,
     setup: str | None,
     save_job: str | None,
     dialect: GcodeDialect | None,
@@ -370,13 +379,14 @@ def _cut(
 ) -> tuple[CutDrawing, list[Finding]] | None:
     """Cut the drawing and write the files: the result, and what there is to say of the tape's name; None: its layers
     were listed."""
+    from skg.cutting import holes as holes_files
     from skg.pipeline.placing import told_as_drawn
     from skg.pipeline.steps import cut_drawing, open_drawing, written
 
     kept = kept_setups().kept(setup) if setup is not None else {}
     if is_job_file(file):
         job, path = _loaded(file, context, kept)
-        refuse_onto([name for name in (output, program, sheet, save_job) if name], [path])
+        refuse_onto([name for name in (output, program, sheet, holes, save_job) if name], [path])
     else:
         job, path = _asked(context, file, kept, **options), file
     if list_layers:
@@ -387,6 +397,8 @@ def _cut(
             remark(note.within(path))
         return None
     form = picture_format(sheet, None) if sheet else ""
+    if holes:
+        holes_files.refuse_name(holes)
     if is_gcode(output) and not dialect:
         raise UserError(Finding("tape-named-gcode").within(output))
     if not dialect and output != "-":
@@ -399,8 +411,12 @@ def _cut(
     cut = cut_drawing(job, drawn)
     with told_as_drawn(cut.placement):
         made = _for_machine(cut.result, dialect, output) if dialect else to_style(cut.result.tape.items, job.tape.style)
+    routes, thick = cut.result.routes, job.machine.thickness
+    bored = holes_files.holes_file(routes, thick, holes) if holes else b""
     if program:
         write_bytes(program, cut.result.program.encode("ascii"))
+    if holes:
+        write_bytes(holes, bored)
     if sheet:
         from skg.pictures.sheet import Facts, write_sheet
 
@@ -412,6 +428,8 @@ def _cut(
         write_bytes(save_job, job_files.encoded(written(job, drawn)))
     write_bytes(output, made)  # last: no tape where something else could not be written
     more = unmarked(output, cut.result.tape, job.machine.rom) if dialect is None else []
+    if holes:
+        more = [*holes_files.findings(routes, thick, holes), *more]
     return cut, [*_used(setup, kept, job), *more] if setup is not None else more
 
 

@@ -82,6 +82,7 @@ _LOST = frozenset(
 _GUESS = frozenset(
     {
         "ends-joined",
+        "drilled",
         "more-joined",
         "no-thickness",
         "size-guessed",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from decimal import Decimal
 from math import atan2, ceil, cos, hypot, pi, sin
 from typing import TYPE_CHECKING
@@ -94,6 +94,15 @@ class GcodeWriter:
             self.block(word, *goal, *how, self._fed(feed))
             self.spot = place
 
+    def drill(self, holes: Sequence[Spot], depth: int, clear: int, feed: str) -> None:
+        """Drill holes by a cycle, G81, from a height down to another (µm), and up to the first again."""
+        for number, hole in enumerate(holes):
+            cycle = ["G99", "G81"] if number == 0 else []
+            heights = [f"{letter}{self.dialect.length(height)}" for letter, height in (("Z", depth), ("R", clear))]
+            self.block(*cycle, *self._goal(hole), *(heights if cycle else []), self._fed(feed) if cycle else "")
+            self.spot = hole
+        self.block("G80")
+
     def _ends(self, end: Spot, centre: Spot, sense: int) -> list[Spot]:
         """The ends of quarters of a circle, at most, that make an arc."""
         (x, y), (u, v) = minus(self.spot, centre), minus(end, centre)
@@ -176,6 +185,18 @@ def write(
     if heights:
         writer.to_height(0, heights[1])
     writer.all_of(dialect.foot)
+    return writer.text
+
+
+def drilling(holes: Sequence[Spot], depth: int, clear: int, feed: float, note: str) -> str:
+    """Return the program that drills holes (µm) to a depth below Z 0, from a height above it; `feed`: mm/min; `note`: a
+    comment at its head."""
+    writer = GcodeWriter(MILL)
+    writer.block(f"({note})")
+    writer.all_of(MILL.head)
+    writer.to_height(0, clear)
+    writer.drill(holes, depth, clear, decimal(feed))
+    writer.all_of(MILL.foot)
     return writer.text
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from skg.cutting import holes as holes_files
 from skg.cutting.progress import Progress
 from skg.errors import UserError
 from skg.geometry.placement import Placement
@@ -123,7 +124,11 @@ class Desk:
         """Make the tape of a run: what is told of it, and its files."""
         cut = cut_drawing(self._job, self._present(), self._progress)
         self._cut = number, self._job, cut
-        files = {"tape": cut.result.data, "program": cut.result.program.encode("ascii"), "job": self.job()}
+        thick, routes = self._job.machine.thickness, cut.result.routes
+        holes = {"holes": holes_files.table(routes)}
+        if thick is not None:
+            holes["drill"] = holes_files.drilled(routes, thick, "drill")
+        files = holes | {"tape": cut.result.data, "program": cut.result.program.encode("ascii"), "job": self.job()}
         return shown.result(cut), files
 
     def sheet(self, number: int, tape: str, form: str, language: str) -> bytes:

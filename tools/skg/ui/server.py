@@ -60,6 +60,8 @@ POLICY = (
 TYPES = {
     "tape": "text/plain; charset=us-ascii",
     "program": "text/plain; charset=us-ascii",
+    "holes": "text/csv; charset=us-ascii",
+    "drill": "text/plain; charset=us-ascii",
     "sheet": "application/pdf",
     "sheet.svg": "image/svg+xml",
     "job": "application/toml; charset=utf-8",
@@ -474,7 +476,7 @@ ROUTES = (
     ("POST", "/api/cut", Handler._cut),
     ("GET", "/api/run/([0-9]{1,9})", Handler._run),
     ("DELETE", "/api/run/([0-9]{1,9})", Handler._cancel),
-    ("GET", "/api/run/([0-9]{1,9})/(tape|program|sheet|sheet[.]svg|job)", Handler._file),
+    ("GET", "/api/run/([0-9]{1,9})/(tape|program|sheet|sheet[.]svg|job|holes|drill)", Handler._file),
     ("GET", "/api/run/([0-9]{1,9})/from/([0-9]{1,9})", Handler._rest),
     ("POST", "/api/save", Handler._save),
     ("POST", "/api/take", Handler._take),

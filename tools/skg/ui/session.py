@@ -26,7 +26,9 @@ _LOOK = 0.5
 #: The ways of no more contours are asked for at once.
 MOST_WAYS = 200
 #: Files that can be saved, in the order of writing: no tape if another file fails.
-SAVED = ("program", "job", "sheet", "tape")
+SAVED = ("program", "job", "sheet", "holes", "drill", "tape")
+#: Endings of the files of start holes, behind the name without its own.
+HOLES = {"holes": "-holes.csv", "drill": "-holes.nc"}
 #: The drawing, as the page is told of it, of a file that could never be read.
 NOTHING: dict = {
     **{name: [] for name in ("layers", "contours", "starts", "repairs", "report")},
@@ -477,6 +479,8 @@ class Session:
             raise UserError(Finding("run-without-tape", number=number))
         if kind in run.files:
             return run.files[kind]
+        if kind == "drill":
+            raise UserError(Finding("drill-without-thickness"))
         tape = tape or run.result["tape_name"]
         key = f"{kind} {language} {tape}"
         if key not in run.files:
@@ -494,7 +498,8 @@ class Session:
         job = self._job_path.name if self._job_path else stem + JOB
         rom = (self._state.get("job") or {}).get("machine", {}).get("rom", ROMS[0])
         tape = stem + (WITHOUT_DRIFT if rom == ROMS[0] else ".3b")
-        return {"program": f"{stem}.skg", "job": job, "sheet": f"{stem}.pdf", "tape": tape}
+        holes = {kind: stem + ending for kind, ending in HOLES.items()}
+        return {"program": f"{stem}.skg", "job": job, "sheet": f"{stem}.pdf", "tape": tape} | holes
 
     def styled(self, number: int, style: str, first: int = 1) -> bytes:
         """The tape of a run in a style, from a block on (from 1)."""
@@ -524,6 +529,7 @@ class Session:
         if len(name) > MOST_STEM or Path(name).name != name or not name.isprintable() or name.startswith("."):
             raise UserError(Finding("bad-request", detail="name: expected that of a file, without a folder"))
         ending = ".3b" if is_short else names["tape"][len(names["program"]) - len(".skg") :]
+        names |= {kind: name + ending for kind, ending in HOLES.items()}
         return names | {"program": f"{name}.skg", "sheet": f"{name}.pdf", "tape": name + ending}
 
     def save(

@@ -11,7 +11,14 @@ import type { FileKind, Named, Style, Values } from "./types.ts";
 import { w } from "./words.ts";
 
 /** Endings of what is downloaded, behind the name without its own. */
-const ENDINGS: Record<FileKind, string> = { tape: "", program: ".skg", sheet: "-sheet.pdf", job: ".job.toml" };
+const ENDINGS: Record<FileKind, string> = {
+  tape: "",
+  program: ".skg",
+  sheet: "-sheet.pdf",
+  job: ".job.toml",
+  holes: "-holes.csv",
+  drill: "-holes.nc",
+};
 /** The ending of a tape without drift, else of any. */
 const TAPE = /\.nodrift\.3b$|\.3b$/;
 /** A name that a control of eight letters takes. */
@@ -134,7 +141,7 @@ export class Saving {
     const { outcome } = this.#cutting;
     const tape = outcome.kind === "done" ? outcome.result.tape_name : "";
     const stem = this.#named.name || this.#stem;
-    const names: string[] = [];
+    const files: [string, Blob][] = [];
     for (const each of what) {
       const name =
         each === "tape"
@@ -148,10 +155,11 @@ export class Saving {
               : each === "job"
                 ? this.#server.jobOf(run, this.#named)
                 : this.#server.file(run, each));
-      saveFile(name, file);
-      names.push(name);
+      files.push([name, file]);
     }
-    return names;
+    // (all or none)
+    for (const [name, file] of files) saveFile(name, file);
+    return files.map(([name]) => name);
   }
 
   /** Asks before it overwrites. */

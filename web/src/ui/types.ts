@@ -217,7 +217,7 @@ export interface Run {
 
 /** Edges of the wire's centre by contour, for each pass and tab. */
 export type Ways = Readonly<Record<string, readonly (readonly Edge[])[]>>;
-export type FileKind = "tape" | "program" | "sheet" | "job";
+export type FileKind = "tape" | "program" | "sheet" | "job" | "holes" | "drill";
 /** The name of what is saved, without endings, "" for the drawing's; a short one's tape has eight letters and three. */
 export interface Named {
   readonly name: string;

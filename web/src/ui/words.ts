@@ -38,6 +38,8 @@ const WORDS = {
   tape: ["Tape", "3B 代码"],
   program: ["Program", "程序"],
   sheet: ["Sheet", "工艺单"],
+  holesList: ["Start holes, CSV", "穿丝孔表 CSV"],
+  holesDrill: ["Drilling program, G81", "钻孔程序 G81"],
   job: ["Job", "作业文件"],
   settings: ["Settings", "设置"],
   language: ["Language", "语言"],

@@ -1,0 +1,70 @@
+"""The start holes for who drills them: a list as CSV, and a drilling program, read back before it is given."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Sequence
+from decimal import Decimal
+from io import StringIO
+
+from skg.errors import UserError
+from skg.messages.finding import Finding
+from skg.planning.planned import PlannedContour
+from skg.tape.block import micrometres
+from skg.tape.gcode import ENDINGS, Spot, drilling, is_gcode
+from skg.tape.gcode_program import Drilled
+from skg.tape.gcode_reader import read
+
+CSV = ".csv"
+#: The drill goes on so far below the stock, and begins so far above it, mm; its feed, mm/min.
+OVER, CLEAR, FEED = 2.0, 2.0, 100.0
+_NOTE = "START HOLES. Z0: TOP OF THE STOCK. SET F AND THE SPINDLE"
+
+
+def refuse_name(name: str) -> None:
+    """Raise a `UserError` where a file's name says neither CSV nor G-code."""
+    if not (name.lower().endswith(CSV) or is_gcode(name)):
+        raise UserError(Finding("holes-name", endings=(CSV, *ENDINGS)).within(name))
+
+
+def holes_file(routes: Sequence[PlannedContour], thickness: float | None, name: str) -> bytes:
+    """The file of the start holes that a name asks for; a drilling program wants the stock's thickness, mm."""
+    return table(routes) if name.lower().endswith(CSV) else drilled(routes, thickness, name)
+
+
+def findings(routes: Sequence[PlannedContour], thickness: float | None, name: str) -> list[Finding]:
+    """What the drilling program has that nobody told."""
+    if name.lower().endswith(CSV) or thickness is None:
+        return []
+    depth = thickness + OVER
+    return [Finding("drilled", count=len(_holes(routes)), depth=depth, over=OVER, clear=CLEAR, feed=FEED).within(name)]
+
+
+def table(routes: Sequence[PlannedContour]) -> bytes:
+    """The holes as CSV in the order of cutting: number, x and y (mm), the contour's number and kind."""
+    text = StringIO(newline="")
+    writer = csv.writer(text)
+    writer.writerow(("hole", "x_mm", "y_mm", "contour", "kind"))
+    for number, ((x, y), route) in enumerate(_holes(routes).items(), 1):
+        writer.writerow((number, f"{x / 1000:.3f}", f"{y / 1000:.3f}", route.turn, route.kind))
+    return text.getvalue().encode("ascii")
+
+
+def drilled(routes: Sequence[PlannedContour], thickness: float | None, name: str) -> bytes:
+    """The program that drills the holes through the stock, by G81."""
+    if thickness is None:
+        raise UserError(Finding("drill-without-thickness").within(name))
+    holes, depth = list(_holes(routes)), -micrometres(thickness + OVER)
+    text = drilling(holes, depth, micrometres(CLEAR), FEED, _NOTE)
+    if read(text, name).path.marks != [Drilled(hole, Decimal(depth)) for hole in holes]:
+        raise UserError(Finding("read-back-empty").within(name))
+    return text.encode("ascii")
+
+
+def _holes(routes: Sequence[PlannedContour]) -> dict[Spot, PlannedContour]:
+    """The places of the holes, µm, each once, with the first contour that is cut from there."""
+    holes: dict[Spot, PlannedContour] = {}
+    for route in routes:
+        for x, y in route.holes:
+            holes.setdefault((micrometres(x), micrometres(y)), route)
+    return holes
