@@ -21,6 +21,7 @@ from uihelp import Json, Page, circles, english, plate, until
 
 from skg.ui import worker
 from skg.ui.server import Server
+from skg.ui.session import Run
 
 SKG = Path(sys.executable).with_name("skg")
 
@@ -130,6 +131,45 @@ def test_cancel(server: Server, tmp_path: Path) -> None:
     # (at once: the process of the cancelled one may not have ended yet)
     later, run = page.cut(state["rev"])
     assert run["state"] == "done" and later > number
+
+
+@pytest.mark.parametrize("stage", ["plan", "board", "check"])
+def test_cancel_in_each_stage(server: Server, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, stage: str) -> None:
+    """The answer comes before the work ends: its process is halted in that stage, and gone behind the answer."""
+    page = Page(server)
+    state = page.open(circles(tmp_path, 300))
+    process, tell = server.session._worker._process, server.session._tell
+
+    def halting(run: Run, **news: object) -> None:
+        if news.get("stage") == stage:
+            os.kill(process.pid, signal.SIGSTOP)
+        tell(run, **news)
+
+    monkeypatch.setattr(server.session, "_tell", halting)
+    number = page.done("POST", "/api/cut", {"rev": state["rev"]})["run"]
+    after = 0
+    while (run := page.done("GET", f"/api/run/{number}?after={after}"))["stage"] != stage:
+        after = run["k"]
+    assert run["state"] == "running" and process.is_alive()
+    assert page.done("DELETE", f"/api/run/{number}")["state"] == "cancelled"
+    monkeypatch.undo()
+    until(lambda: not process.is_alive())
+    assert page.cut(state["rev"])[1]["state"] == "done"
+
+
+def test_cancel_of_a_reading(server: Server, tmp_path: Path) -> None:
+    """Another drawing ends the reading of one, wherever that is."""
+    page, answers = Page(server), []
+    page.open(plate(tmp_path))
+    process = server.session._worker._process
+    data = circles(tmp_path, 2000).read_bytes()
+    reading = Thread(target=lambda: answers.append(page.call("POST", "/api/open", data, X_Name="many.dxf")))
+    os.kill(process.pid, signal.SIGSTOP)
+    reading.start()
+    until(lambda: server.session._is_long)
+    assert len(page.open(plate(tmp_path))["contours"]) == 3
+    reading.join()
+    assert answers[0].status == 400 and not process.is_alive()
 
 
 def test_another_drawing_takes_the_place_of_a_cut(server: Server, tmp_path: Path) -> None:

@@ -6,6 +6,7 @@ import os
 import random
 import re
 import shutil
+import signal
 from collections.abc import Callable
 from pathlib import Path
 from threading import Thread, Timer
@@ -117,6 +118,46 @@ def test_what_has_changed_alone_is_told(page: Page, tmp_path: Path) -> None:
         state |= answer
         assert state["plan"] == page.state()["plan"]
     assert shorter > 20
+
+
+def test_wire_without_open_lines(page: Page, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A drawing that has no open lines is not read anew because these would be refused beside a wire."""
+    for name, more, is_same in (("closed.dxf", (), True), ("open.dxf", ((5, 50), (25, 50)), False)):
+        path = plate(tmp_path, name)
+        if more:
+            document = ezdxf.readfile(path)
+            document.modelspace().add_line(*more)
+            document.saveas(path)
+        state = page.open(path)
+        put = page.put(state, machine={"offset": 0.1})
+        assert ("contours" not in put) == is_same and bool(put.get("error")) != is_same
+
+
+def test_large_drawing_is_told_of_before_its_plan(
+    serve: Callable[[], Server], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is there once, and what was set of it meanwhile is no conflict with its plan."""
+    session = (server := serve()).session
+    page, path, answers = Page(server), circles(tmp_path, 1200), []
+    rev, take = page.done("GET", "/api/state")["rev"], session._take_early
+
+    def halting(*found: object) -> None:
+        os.kill(session._worker._process.pid, signal.SIGSTOP)
+        take(*found)
+
+    monkeypatch.setattr(session, "_take_early", halting)
+    opening = Thread(target=lambda: answers.append(page.open(path)))
+    opening.start()
+    early = page.done("GET", f"/api/state?after={rev}")
+    assert early["plan"] is None and not early.get("error") and len(early["contours"]) == 1200
+    os.kill(session._worker._process.pid, signal.SIGCONT)
+    body = {"rev": early["rev"], "job": early["job"] | {"machine": {"offset": 0.1}}}
+    put = page.done("PUT", "/api/job", body)
+    opening.join()
+    (opened,) = answers
+    assert opened["drawn"] == early["drawn"] and len(opened["plan"]["contours"]) == 1200
+    assert "contours" not in put and put["job"]["machine"]["offset"] == 0.1
+    assert page.call("PUT", "/api/job", body).status == 409
 
 
 def test_errors_of_a_contour(page: Page, tmp_path: Path) -> None:

@@ -79,7 +79,7 @@ class Page:
     def state(self) -> Json:
         """The state, when something is open."""
         state = self.done("GET", "/api/state")
-        while state["name"] is None:
+        while state["name"] is None or state["plan"] is None and not state.get("error"):
             state = self.done("GET", f"/api/state?after={state['rev']}")
         return state
 

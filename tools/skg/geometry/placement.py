@@ -44,7 +44,7 @@ class Placement:
         """Tell whether what runs counter-clockwise runs clockwise then."""
         return self._determinant < 0
 
-    @property
+    @cached_property
     def is_nothing(self) -> bool:
         """Tell whether every place stays where it is."""
         return self.matrix == (1.0, 0.0, 0.0, 1.0) and self.origin == self.at
@@ -81,6 +81,8 @@ class Placement:
 
     def edge(self, edge: Edge) -> Edge:
         """An edge, run through in its direction."""
+        if self.is_nothing:
+            return edge
         start = self.place(edge.start)
         samples = edge.samples
         if len(samples):
@@ -97,4 +99,6 @@ class Placement:
 
     def contour(self, contour: Contour) -> Contour:
         """A contour, run through in its direction."""
+        if self.is_nothing:
+            return contour
         return replace(contour, edges=tuple(map(self.edge, contour.edges)))

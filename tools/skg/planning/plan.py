@@ -81,7 +81,8 @@ class _Choice:
         """The contour as it is entered best."""
         entry, part, start, tab_hole = self.best
         contour = entry.begun(self.made.contour)
-        return replace(_begun(self.made, contour, part, start, tab_hole), room=self.room)
+        made = replace(self.made, contour=contour, start=start, part=part, room=self.room)
+        return _with_tabs(made, Tab(inf, tab_hole, start)) if made.tabs.length else made
 
 
 class _Columns(NamedTuple):
@@ -399,12 +400,6 @@ def _deepest(before: Sequence[Edge], places: Floats, bearings: Floats, is_right:
     closing = -((headings(bearings + aside) - headings(bearings_before + aside)) * tabs).sum(1) / lengths
     room = np.maximum(lengths / 2 - widest, 1e-3)
     return np.where(closing > 1e-9, room / np.maximum(closing, 1e-9), inf)
-
-
-def _begun(made: PlannedContour, contour: Contour, part: float, start: XY, tab_hole: XY) -> PlannedContour:
-    """A contour that is entered at `part` of its first edge, with the tab before that place if it is to have any."""
-    made = replace(made, contour=contour, start=start, part=part)
-    return _with_tabs(made, Tab(inf, tab_hole, start)) if made.tabs.length else made
 
 
 def _with_tabs(made: PlannedContour, *tabs: Tab) -> PlannedContour:

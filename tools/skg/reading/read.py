@@ -77,6 +77,12 @@ class Reading:
     unasked: list[Edge]
     written: list[Written]
 
+    def is_same(self, wishes: Wishes, others: Wishes) -> bool:
+        """Tell whether others than the wishes that it was read by give the same: what becomes of open lines does not
+        matter where there are none."""
+        is_about_open = not self.opened and "all" not in (wishes.open, others.open)
+        return wishes == (replace(others, open=wishes.open) if is_about_open else others)
+
     @cached_property
     def report(self) -> Account:
         """The report on all contours."""

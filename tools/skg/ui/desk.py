@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
@@ -35,11 +35,14 @@ from skg.planning.plan import Asked
 from skg.planning.planned import PlannedContour
 from skg.ui import shown
 from skg.ui.json_text import encoded, told
+from skg.ui.worker import EARLY
 
 #: The page's name in messages on its requests.
 _PAGE = "the page"
 #: Refusals of a drawing that can be read with its open lines.
 _OF_OPEN = ("open-refused", "outline-lost", "no-outline-gap", "no-outline-junctions")
+#: A drawing of so many contours is told of before it is planned.
+_MANY = 1000
 #: So many contours that cannot be planned are told one by one.
 _MOST_ERRORS = 20
 
@@ -48,8 +51,8 @@ class Desk:
     """A drawing, its job, and what came of them. The methods are what the server calls; they return plain data,
     and JSON where there is much of them."""
 
-    def __init__(self, progress: Progress) -> None:
-        self._progress = progress
+    def __init__(self, progress: Progress, early: Callable[[dict], None] = lambda _: None) -> None:
+        self._progress, self._early = progress, early
         self._data = b""
         self._job: Job | None = None
         self._drawn: DrawnJob | None = None
@@ -88,14 +91,14 @@ class Desk:
         self._data, self._doubts = data, {}
         if not is_known:
             self._seen = None
-        return self._read(replace(made, drawing=name))
+        return self._read(replace(made, drawing=name), is_known)
 
     def plan(self, data: dict) -> dict[str, Any]:
         """Plan a job; read the drawing anew where it asks for that."""
         job = job_files.from_data(data, _PAGE)
         if self._job is None or job.drawing != self._job.drawing:
             raise UserError(Finding("page-not-open", drawing=job.drawing[:100]))
-        if self._drawn is None or wishes_of(job) != wishes_of(self._job):
+        if self._drawn is None or not self._drawn.reading.is_same(wishes_of(self._job), wishes_of(job)):
             return self._read(job)
         self._job = job
         self._drawn = replace(self._drawn, matches=self._drawn.known.find(job.contours, job.box))
@@ -156,8 +159,9 @@ class Desk:
             raise self._why
         return self._drawn
 
-    def _read(self, job: Job) -> dict[str, Any]:
-        """Read the drawing. One that cannot be read is told of with the job that asked for it."""
+    def _read(self, job: Job, is_known: bool = True) -> dict[str, Any]:
+        """Read the drawing. One that cannot be read is told of with the job that asked for it; of one that is not known
+        yet, and large, the drawing is told of before its plan."""
         self._job, self._drawn, self._routes, self._cut = job, None, {}, None
         self._before, self._plans = {}, shown.Plans()
         try:
@@ -179,7 +183,14 @@ class Desk:
                 self._doubts[replace(chosen, partial=Partial())] = match.moved
         self._drawn = replace(self._drawn, matches=self._drawn.known.find(self._job.contours, self._job.box))
         self._seen = self._drawn
-        return {"drawing": shown.drawing(self._drawn)} | self._state()
+        drawing = shown.drawing(self._drawn)
+        if is_known or len(self._drawn.contours) < _MANY:
+            return {"drawing": drawing} | self._state()
+        # (planned it will be some seconds later)
+        matches = self._matches(self._drawn.matches.found)
+        state = {"name": job.drawing, "job": job_files.to_data(self._job), "matches": matches, "plan": None}
+        self._early({"drawing": drawing, "state": state})
+        return {"drawing": EARLY} | self._state()
 
     def _state(self) -> dict[str, Any]:
         """The part of the state that changes with the job, and the plan of those contours that it changes."""

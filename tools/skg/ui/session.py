@@ -6,6 +6,7 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from threading import Condition, Event, Lock, Thread
 
@@ -19,7 +20,7 @@ from skg.tape.block import Block
 from skg.tape.positions import WITHOUT_DRIFT
 from skg.tape.styles import STYLES, read_any, to_style
 from skg.ui.json_text import said, told
-from skg.ui.worker import Ended, Worker
+from skg.ui.worker import EARLY, Ended, Worker
 
 #: The drawing's file is looked at so often, s.
 _LOOK = 0.5
@@ -88,6 +89,9 @@ class Session:
         #: The state and the run, and news of these. `_drawn` goes up when the contours are new.
         self._news = Condition()
         self._rev = self._drawn = 0
+        #: The revision of a drawing that was told of before it was planned, and that of its plan: they are one.
+        self._planned = -1, -1
+        self._is_early = False
         #: The page's state, and the drawing, which stays as long as the contours are the same.
         self._state: dict = {"name": None}
         self._drawing: dict = {}
@@ -295,7 +299,7 @@ class Session:
             yield
 
     def _expect(self, rev: int | None) -> None:
-        if rev is not None and rev != self._rev:
+        if rev is not None and rev != self._rev and (rev, self._rev) != self._planned:
             raise Conflict(Finding("changed-meanwhile"), state=self.state())
 
     def _load(self, data: bytes, name: str, job: bytes | dict | None, path: Path | None = None) -> None:
@@ -312,7 +316,9 @@ class Session:
             self._worker.first = None
             is_known = path is not None and bool(self._drawing)
             try:
-                answer = self._worker.call("open", data, name, job, is_known, None if job else self._last_setup())
+                setup = None if job else self._last_setup()
+                early = None if is_known else partial(self._take_early, data, not isinstance(job, dict))
+                answer = self._worker.call("open", data, name, job, is_known, setup, early=early)
             except Ended as ended:
                 if ended.is_wanted:
                     raise
@@ -321,11 +327,23 @@ class Session:
                 answer = self._refused(name, error, is_known)
             finally:
                 with self._news:
-                    self._is_long = False
+                    self._is_long = self._is_early = False
             self._data = data
             # (read anew with what the page has set: that is saved no more than before)
             is_saved = not isinstance(job, dict) or not self._has_changes()
             self._take(answer, not is_known, is_saved)
+
+    def _take_early(self, data: bytes, is_saved: bool, answer: dict) -> None:
+        """Take a drawing that is read and not planned yet."""
+        with self._news:
+            self._rev += 1
+            self._data, self._state = data, answer["state"]
+            if is_saved:
+                self._saved = self._state["job"]
+            self._unread, self._is_unsafe = None, False
+            self._drawn, self._drawing = self._rev, NOTHING | answer["drawing"]
+            self._is_early = True
+            self._news.notify_all()
 
     def _refused(self, name: str, error: UserError, is_known: bool) -> dict:
         """The answer for a drawing that ended the process that read it, or kept it too long."""
@@ -354,10 +372,13 @@ class Session:
                 self._saved = self._state["job"]
             if drawing is not None:
                 self._unread, self._is_unsafe = self._state.get("error"), answer.get("is_unsafe", False)
-            if is_other:
-                self._drawing = {}
-            if drawing or drawing is not None and not self._drawing:
-                self._drawn, self._drawing = self._rev, NOTHING | drawing
+            if drawing == EARLY:
+                self._planned = self._drawn, self._rev
+            else:
+                if is_other:
+                    self._drawing = {}
+                if drawing or drawing is not None and not self._drawing:
+                    self._drawn, self._drawing = self._rev, NOTHING | drawing
             job = self._state["job"]
             # (a drawing that ended the process is not read once more by the next one)
             is_known = job is not None and not self._is_unsafe
@@ -405,7 +426,9 @@ class Session:
     def cut(self, rev: int) -> int:
         """Begin to make the tape: the run's number."""
         # (one that was cancelled is over, if its process has not ended yet: its turn is waited for)
-        if self._is_long and not (self._run and self._run.state == "cancelled"):
+        # (and so is the plan of a drawing that is there already)
+        is_over = self._is_early or self._run is not None and self._run.state == "cancelled"
+        if self._is_long and not is_over:
             raise Conflict(Finding("busy"))
         # (the turn is given back by the thread)
         self._turn.acquire()

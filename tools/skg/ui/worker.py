@@ -23,6 +23,10 @@ from skg.terminal import remark
 SECONDS = 120.0
 #: The process has no more memory than this, where the system lets a process say so.
 MEMORY = 4 << 30
+#: The drawing in an answer, where it was told of before.
+EARLY = "early"
+#: Part of an answer, told before the rest.
+Early = Callable[[dict], None]
 #: Progress is told no more often than this, s.
 _PAUSE = 0.1
 
@@ -47,13 +51,15 @@ class Worker:
         self._connection: Connection | None = None
         self._is_ended = False
 
-    def call(self, method: str, *arguments: object, progress: Progress | None = None) -> object:
+    def call(
+        self, method: str, *arguments: object, progress: Progress | None = None, early: Early | None = None
+    ) -> object:
         """Return what the call returns; what it refuses is a `UserError`, a process that is gone `Ended`.
 
-        One that tells its progress takes as long as it takes.
+        One that tells its progress takes as long as it takes. `early`: takes what is known before the rest.
         """
         self.begin()
-        return self._ask(method, arguments, progress)
+        return self._ask(method, arguments, progress, early)
 
     def end(self) -> None:
         """End the process, whatever it does: a call that waits for it, in another thread, raises `Ended`."""
@@ -85,7 +91,9 @@ class Worker:
                 self.end()
                 raise
 
-    def _ask(self, method: str, arguments: tuple, progress: Progress | None = None) -> object:
+    def _ask(
+        self, method: str, arguments: tuple, progress: Progress | None = None, early: Early | None = None
+    ) -> object:
         last = time.monotonic() + SECONDS
         try:
             self._connection.send((method, arguments))
@@ -98,7 +106,9 @@ class Worker:
                     return values[0]
                 if kind == "failed":
                     raise UserError(values[0])
-                if progress:
+                if kind == EARLY and early:
+                    early(*values)
+                elif kind == "progress" and progress:
                     progress(*values)
         except (EOFError, OSError):
             self._process.join()
@@ -138,7 +148,7 @@ def work(connection: Connection, language: str) -> None:
     from skg.ui.desk import Desk
 
     speech.language, speech.medium = language, Medium.PAGE
-    desk = Desk(_teller(connection))
+    desk = Desk(_teller(connection), lambda answer: connection.send((EARLY, answer)))
     with suppress(EOFError, OSError):
         while True:
             method, arguments = connection.recv()

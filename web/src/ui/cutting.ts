@@ -18,6 +18,8 @@ export class Cutting {
   #cut = "";
   /** The run that is followed: its number on the server. */
   run: number | undefined;
+  /** The cut that is wanted: one that was cancelled before the server had begun it is none. */
+  #begun: object | undefined;
   outcome: Outcome = { kind: "none" };
   /** Called whenever the outcome is another one. */
   onChange: () => void = () => undefined;
@@ -53,20 +55,30 @@ export class Cutting {
   async start(): Promise<void> {
     if (this.isRunning || !this.#desk.state) return;
     this.run = undefined;
+    const begun = {};
+    this.#begun = begun;
     this.#tell({ kind: "running", run: undefined });
     try {
       await this.#desk.settle();
+      if (this.#begun !== begun) return;
       this.#rev = this.#desk.rev;
       this.#cut = this.#seen;
-      this.run = await this.#server.cut(this.#rev);
+      const run = await this.#server.cut(this.#rev);
+      if (this.#begun !== begun) return await this.#server.cancel(run);
+      this.run = run;
       await this.#follow(this.run);
     } catch (error) {
-      this.#fail(error);
+      if (this.#begun === begun) this.#fail(error);
     }
   }
 
   async cancel(): Promise<void> {
-    if (this.run === undefined) return;
+    if (this.run === undefined) {
+      // (the server has not begun it yet)
+      this.#begun = undefined;
+      this.#tell({ kind: "cancelled" });
+      return;
+    }
     try {
       await this.#server.cancel(this.run);
     } catch (error) {
