@@ -21,7 +21,7 @@ from uihelp import Json, Page, circles, english, plate, until
 
 from skg.ui import worker
 from skg.ui.server import Server
-from skg.ui.session import Run
+from skg.ui.session import CutRun
 
 SKG = Path(sys.executable).with_name("skg")
 
@@ -140,7 +140,7 @@ def test_cancel_in_each_stage(server: Server, tmp_path: Path, monkeypatch: pytes
     state = page.open(circles(tmp_path, 300))
     process, tell = server.session._worker._process, server.session._tell
 
-    def halting(run: Run, **news: object) -> None:
+    def halting(run: CutRun, **news: object) -> None:
         if news.get("stage") == stage:
             os.kill(process.pid, signal.SIGSTOP)
         tell(run, **news)
