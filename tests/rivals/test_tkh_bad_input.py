@@ -2,9 +2,17 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
+
 import pytest
 from facthelp import says
 from tkhhelp import fault
+
+from skg.errors import UserError
+from skg.messages.finding import Phrase
+from skg.messages.render import Speech, line
+from skg.rivals.languages import translated
 
 MADE = (
     "ТЧ1=0,0;ТЧ2=9,0;ТЧ3=9,9;ПР1=0,0,9,0;ПР2=0,5,9,5;ПР3=4,0,4,9;КР1=0,0,3;КР2=20,0,2;КР3=2,0,4;КР4=0,0,5;"
@@ -229,9 +237,20 @@ def test_columns_count_characters() -> None:
 
 
 def test_what_is_said() -> None:
-    assert says(fault("ТЧ5 = 1"), "1:8: ", "comma", " - ", " +")
+    assert says(fault("ТЧ5 = 1"), "1:8: ", Phrase("rival-comma"), " - ", " +")
     assert says(fault("ТЧ5 = ХБ"), "ХБ")
-    assert says(fault("ФРЕЗА 10"), "1:7: ", " =", 10)
-    assert says(fault("+"), "1:1: ", "statement", " +")
-    assert says(fault("КР1 = 0, 0, 5; ТЧ1 = КР1, КР2, ХБ"), "1:27: ", "КР2")
-    assert says(fault("КР1 = 0, 0, 5; ТЧ1 = КР1, КР1, ХБ"), "1:16: ", "circle")
+    assert says(fault("ФРЕЗА 10"), "1:7: ", Phrase("expected-found", expected="=", found="10"))
+    assert says(fault("+"), "1:1: ", Phrase("expected-found", expected=Phrase("rival-statement"), found="+"))
+    assert says(fault("КР1 = 0, 0, 5; ТЧ1 = КР1, КР2, ХБ"), "1:27: ", Phrase("rival-undefined", name="КР2"))
+    assert says(fault("КР1 = 0, 0, 5; ТЧ1 = КР1, КР1, ХБ"), "1:16: ", Phrase("rival-concentric"))
+
+
+def test_on_a_chinese_screen(tmp_path: Path) -> None:
+    """What `skg` prints of a program that it refuses has the words of its language, and the program's own names."""
+    part = tmp_path / "part.tkh"
+    part.write_text("ТЧ1 = 0, 0\nПР1 = ТЧ1, ТЧ1\n")
+    with pytest.raises(UserError) as caught:
+        translated(str(part))
+    assert caught.value.finding.code == "rival-no-line"
+    assert not re.search(r"[a-z]{2}", line(caught.value.finding, Speech("zh")).removeprefix(str(part)))
+    assert re.search(r"[a-z]{2}", line(caught.value.finding, Speech("en")).removeprefix(str(part)))

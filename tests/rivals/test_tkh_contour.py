@@ -17,6 +17,7 @@ from facthelp import says
 from rivalhelp import XY, apart, cut_small_numbers
 from tkhhelp import cut, fault
 
+from skg.messages.finding import Phrase
 from skg.rivals.tekhtran import translate
 
 # The independent construction --------------------------------------------------------------------------------------
@@ -218,7 +219,7 @@ def test_random_contours(part: int, record_property: pytest.RecordProperty) -> N
     while blocks < BLOCKS / PARTS:
         made = written(rng, ring(rng))
         if made.is_refused:
-            assert says(fault(made.text), "inner corner"), made.text
+            assert says(fault(made.text), Phrase("rival-inner-corner")), made.text
             refused += 1
             continue
         segments = [s for s in cut(made.text).path if s.role == "cut"]

@@ -16,7 +16,15 @@ RIVALS = {".xy": ("XY", "skg.rivals.xy"), ".tkh": ("TEKHTRAN", "skg.rivals.tekht
 
 
 class RivalFault(Exception):
-    """An error in a rival's program: `LINE:COLUMN: TEXT`, both from 1."""
+    """An error in a rival's program: a finding, and its line and column, both from 1."""
+
+    def __init__(self, line: int, column: int, finding: Finding) -> None:
+        super().__init__(finding)
+        self.place = f"{line}:{column}"
+        self.finding = finding
+
+    def __str__(self) -> str:
+        return str(self.finding.within(self.place))
 
 
 def is_program(name: str) -> bool:
@@ -42,8 +50,7 @@ def translated(name: str, ending: str | None = None) -> str:
         column = len(good) - good.rfind("\n")
         raise UserError(Finding("not-in-utf-8").within(f"{name}:{good.count(chr(10)) + 1}:{column}")) from None
     except RivalFault as fault:
-        place, _, detail = str(fault).partition(": ")
-        raise UserError(Finding("rival", detail=detail).within(f"{name}:{place}")) from None
+        raise UserError(fault.finding.within(f"{name}:{fault.place}")) from None
 
 
 def is_rival(name: str) -> bool:

@@ -108,7 +108,7 @@ def _all(kinds: tuple[str, ...], count: int, end: str = "") -> list[str]:
 
 def _circle(centre: ExactPoint, r: Real) -> ExactCircle:
     if r <= TINY:
-        raise PlaneError("a radius must be more than 0")
+        raise PlaneError("rival-radius")
     return ExactCircle(centre, -r)
 
 

@@ -10,6 +10,8 @@ from dataclasses import dataclass
 
 import mpmath
 
+from skg.messages.finding import Phrase
+
 mp = mpmath.mp.clone()
 mp.dps = 50
 Real = mp.mpf
@@ -24,7 +26,11 @@ SAME_WAY = Real("0.001")
 
 
 class PlaneError(Exception):
-    """Geometry that there is not: what is missing, in a few words."""
+    """Geometry that there is not: the reason, `why`."""
+
+    def __init__(self, code: str, **values: object) -> None:
+        super().__init__(code)
+        self.why = Phrase(code, **values)
 
 
 @dataclass(frozen=True)
@@ -66,7 +72,7 @@ class ExactPoint:
         """The unit vector; `PlaneError` for none."""
         size = self.size()
         if size <= TINY:
-            raise PlaneError("one point twice has no direction")
+            raise PlaneError("rival-no-direction")
         return self * (1 / size)
 
 
@@ -205,7 +211,7 @@ def belt_line(e: ExactPoint | ExactCircle, f: ExactPoint | ExactCircle) -> Exact
     if abs(d - abs(r1 - r2)) <= NEAR and r1 != r2:
         return None
     if d <= NEAR or d < abs(r1 - r2):
-        raise PlaneError("there is no line that touches both")
+        raise PlaneError("rival-no-tangent")
     u = v * (1 / d)
     sine = (r1 - r2) / d
     direction = u * mp.sqrt(1 - sine * sine) + u.left() * sine
@@ -286,7 +292,7 @@ def crossings(e: ExactCurve, f: ExactCurve, touch: Real = NEAR) -> tuple[ExactPo
     if isinstance(e, ExactLine) and isinstance(f, ExactLine):
         sine = e.way.cross(f.way)
         if abs(sine) <= TINY:
-            raise PlaneError("the lines are parallel")
+            raise PlaneError("rival-parallel")
         return (e.point + e.way * ((f.point - e.point).cross(f.way) / sine),)
     if isinstance(e, ExactCircle) and isinstance(f, ExactCircle):
         return _of_circles(e, f, touch)
@@ -294,7 +300,7 @@ def crossings(e: ExactCurve, f: ExactCurve, touch: Real = NEAR) -> tuple[ExactPo
     middle = foot(circle.centre, line)
     d, r = (middle - circle.centre).size(), abs(circle.r)
     if d > r + NEAR:
-        raise PlaneError("the line misses the circle")
+        raise PlaneError("rival-line-misses")
     if d >= r - touch:
         return (circle.centre + (middle - circle.centre).unit() * r,)
     half = line.way * mp.sqrt(r * r - d * d)
@@ -305,11 +311,11 @@ def _of_circles(c1: ExactCircle, c2: ExactCircle, touch: Real) -> tuple[ExactPoi
     v = c2.centre - c1.centre
     d, r1, r2 = v.size(), abs(c1.r), abs(c2.r)
     if d <= max(touch, TINY):
-        raise PlaneError("the circles have one centre")
+        raise PlaneError("rival-concentric")
     u = v * (1 / d)
     gap = max(d - r1 - r2, abs(r1 - r2) - d)
     if gap > NEAR:
-        raise PlaneError("the circles miss each other")
+        raise PlaneError("rival-circles-miss")
     if gap >= -touch:
         inner = abs(r1 - r2) - d > d - r1 - r2
         return (c1.centre + u * (-r1 if inner and r1 < r2 else r1),)
@@ -357,7 +363,7 @@ def _right_of(e: ExactElement, r: Real) -> ExactCurve:
         return ExactCircle(e, r)
     beside = parallel(e, r)
     if isinstance(beside, ExactCircle) and abs(beside.r) <= TINY:
-        raise PlaneError("the circle would be the one that it touches")
+        raise PlaneError("rival-touches-itself")
     return beside
 
 
@@ -400,7 +406,7 @@ def touching_three(e: ExactElement, f: ExactElement, g: ExactElement) -> ExactCi
     if len(circles) > 1:
         circles = [c for c in circles if sweep(c, _touch(c, e), _touch(c, f)) <= sweep(c, _touch(c, e), _touch(c, g))]
     if not circles:
-        raise PlaneError("no circle touches these three")
+        raise PlaneError("rival-no-circle")
     return circles[0]
 
 

@@ -19,7 +19,7 @@ LAST_LINE = 9999
 
 def too_long() -> TextFault:
     """More than SKG takes."""
-    return TextFault(0, "the program is too long for SKG")
+    return TextFault(0, "rival-too-long")
 
 
 def plain(title: str) -> str:

@@ -115,7 +115,7 @@ def is_same(a: Hung, b: Hung) -> bool:
 def _merged(a: Hung, b: Hung) -> Hung:
     """Two neighbours that are one item."""
     if not a.is_pin and a.arc:
-        raise TextFault(a.arc.token.start_pos, "a connecting arc stands between two circles, this is one")
+        raise TextFault(a.arc.token.start_pos, "rival-arc-one-circle")
     return Hung(a.value, a.text, a.token, (a.arc if a.is_pin else None) or b.arc)
 
 
@@ -132,7 +132,7 @@ def without_doubles(items: list[Hung]) -> list[Hung]:
         if last.is_pin:
             merged[0] = _merged(merged[0], last)
         elif last.arc:
-            raise TextFault(last.arc.token.start_pos, "a connecting arc stands between two circles, this is one")
+            raise TextFault(last.arc.token.start_pos, "rival-arc-one-circle")
     return merged
 
 
@@ -155,7 +155,7 @@ def mirrored_items(items: list[Hung], image: Callable[[Hung], Hung]) -> list[Hun
     last = items[-1]
     if is_same(last, images[0]):
         if not last.is_pin and last.arc:
-            raise TextFault(last.arc.token.start_pos, "a connecting arc stands between two circles, this is one")
+            raise TextFault(last.arc.token.start_pos, "rival-arc-one-circle")
         items = [*items[:-1], Hung(last.value, last.text, last.token, images[0].arc)]
         images = images[1:]
     return [*items, *images]
@@ -171,7 +171,7 @@ def between(a: Hung, b: Hung, index: int) -> tuple[ExactPoint, ExactPoint, list[
     """
     if a.arc and not a.is_pin:
         if b.is_pin:
-            raise TextFault(a.arc.token.start_pos, "a connecting arc stands between two circles")
+            raise TextFault(a.arc.token.start_pos, "rival-arc-two-circles")
         arc = _connecting(a, b, a.arc)
         return arc.start, arc.end, [arc]
     if a.is_pin and b.is_pin:
@@ -182,11 +182,11 @@ def between(a: Hung, b: Hung, index: int) -> tuple[ExactPoint, ExactPoint, list[
             if on(circle.value, pin.value):
                 return pin.value, pin.value, []
             if (pin.value - circle.value.centre).size() < abs(circle.value.r):
-                raise TextFault(index, "the point lies inside the circle")
+                raise TextFault(index, "rival-point-inside")
     try:
         line = belt_line(a.value, b.value)
     except PlaneError:
-        raise TextFault(index, "no belt lies between these circles so: they cross, or one lies in the other") from None
+        raise TextFault(index, "rival-no-belt") from None
     if line is None:
         touch = touching_point(a.value, b.value)
         return touch, touch, [Pin(touch, join(a.text, "*", b.text))]
@@ -201,14 +201,14 @@ def _connecting(a: Hung, b: Hung, arc: Arc) -> Leg:
     clockwise = arc.radius > 0
     try:
         if size <= TINY:
-            raise PlaneError("a radius is not 0")
+            raise PlaneError("rival-radius-zero")
         step = size if clockwise else -size
         beside = [parallel(h.value, step) for h in (a, b)]
         if any(abs(circle.r) <= TINY for circle in beside):
-            raise PlaneError("it would be the circle itself")
+            raise PlaneError("rival-circle-itself")
         circles = [ExactCircle(centre, -step) for centre in crossings(*beside)]
     except PlaneError as error:
-        raise TextFault(arc.token.start_pos, f"the connecting arc does not reach: {error}") from None
+        raise TextFault(arc.token.start_pos, "rival-arc-short", why=error.why) from None
 
     def stretch(circle: ExactCircle) -> Leg:
         return Leg(circle, touching_point(a.value, circle), touching_point(b.value, circle))
@@ -232,9 +232,9 @@ def contour(items: list[Hung], closes: int) -> tuple[list[Part], list[int]]:
     """
     if len(items) == 1:
         if items[0].is_pin:
-            raise TextFault(closes, "a route of one point")
+            raise TextFault(closes, "rival-one-point")
         if items[0].arc:
-            raise TextFault(items[0].arc.token.start_pos, "a connecting arc stands between two circles")
+            raise TextFault(items[0].arc.token.start_pos, "rival-arc-two-circles")
         circle = items[0].value
         return [Leg(circle, circle.centre, circle.centre, items[0].text, whole=True)], [0]
     follows = [
@@ -260,7 +260,7 @@ def contour(items: list[Hung], closes: int) -> tuple[list[Part], list[int]]:
         # One circle and a point on it.
         curves[0].whole = True
     if not any(stretch.is_travelled for stretch in curves):
-        raise TextFault(closes, "there is nothing to travel: the items meet in one point")
+        raise TextFault(closes, "rival-no-travel")
     _round(parts)
     return parts, begins
 
@@ -272,7 +272,7 @@ def _round(parts: list[Part]) -> None:
             continue
         start = pin.fillet.token.start_pos
         if pin.fillet.radius <= TINY:
-            raise TextFault(start, "the radius of a fillet must be more than 0")
+            raise TextFault(start, "rival-fillet-radius")
         around = [part for part in parts[index + 1 :] + parts[:index] if isinstance(part, Leg)]
         if not around or around[0].whole:
             pin.fillet = None
@@ -285,21 +285,21 @@ def _round(parts: list[Part]) -> None:
         try:
             pin.arc = _fillet(before.curve, after.curve, pin.fillet.radius, angle)
         except PlaneError as error:
-            raise TextFault(start, f"the fillet does not fit: {error}") from None
+            raise TextFault(start, "rival-no-fillet", why=error.why) from None
         if not before.has(pin.arc.start) or not after.has(pin.arc.end):
-            raise TextFault(start, "the fillet does not fit: it ends past its neighbours")
+            raise TextFault(start, "rival-fillet-past")
         before.end, after.start = pin.arc.start, pin.arc.end
 
 
 def _fillet(e: ExactCurve, f: ExactCurve, radius: Real, angle: Real) -> Leg:
     """The arc that touches both on the inner side of a corner that turns by `angle`."""
     if mp.pi - abs(angle) <= SAME_WAY:
-        raise PlaneError("the route turns straight back")
+        raise PlaneError("rival-straight-back")
     signed = radius if angle > 0 else -radius
     inner = [parallel(curve, -signed) for curve in (e, f)]
     for curve, moved in zip((e, f), inner, strict=True):
         if isinstance(curve, ExactCircle) and (moved.r if curve.r > 0 else -moved.r) <= NEAR:
-            raise PlaneError("a circle beside it is smaller")
+            raise PlaneError("rival-smaller-circle")
     arc = ExactCircle(crossing_that_turns(*inner, left=angle > 0), signed)
     ends = [
         touching_point(arc, curve) if isinstance(curve, ExactLine) else touching_point(curve, arc) for curve in (e, f)

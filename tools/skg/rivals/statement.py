@@ -11,18 +11,24 @@ from lark import Lark, Token, Tree, UnexpectedToken
 from lark.lexer import Lexer
 from lark.parsers.lalr_interactive_parser import InteractiveParser
 
+from skg.messages.finding import Finding, Phrase
 from skg.rivals.formula import SkgText, join, minus
 from skg.rivals.languages import RivalFault
-from skg.rivals.plane import Real
+from skg.rivals.plane import PlaneError, Real
 
 
 class TextFault(Exception):
     """An error in a text, and the index of its character."""
 
-    def __init__(self, index: int, message: str) -> None:
-        super().__init__(message)
+    def __init__(self, index: int, code: str, **values: object) -> None:
+        super().__init__(code)
         self.index = index
-        self.message = message
+        self.finding = Finding(code, **values)
+
+    @classmethod
+    def of(cls, index: int, error: PlaneError) -> TextFault:
+        """The geometry that there is not, at the character that asks for it."""
+        return cls(index, error.why.code, **dict(error.why.values))
 
 
 @contextmanager
@@ -33,9 +39,9 @@ def placing(text: str) -> Iterator[None]:
     except TextFault as fault:
         before = text[: fault.index]
         column = fault.index - (before.rfind("\n") + 1) + 1
-        raise RivalFault(f"{before.count(chr(10)) + 1}:{column}: {fault.message}") from None
+        raise RivalFault(before.count("\n") + 1, column, fault.finding) from None
     except RecursionError:
-        raise RivalFault("1:1: parentheses too deep") from None
+        raise RivalFault(1, 1, Finding("rival-nesting")) from None
 
 
 # Parsing -----------------------------------------------------------------------------------------------------------
@@ -68,7 +74,7 @@ def begin(grammar: str) -> InteractiveParser:
     return _parser(grammar).parse_interactive("")
 
 
-def feed(parser: InteractiveParser, token: Token, shown: Mapping[str, str]) -> None:
+def feed(parser: InteractiveParser, token: Token, shown: Mapping[str, str | Phrase]) -> None:
     """One token more; `TextFault` where it is none that the grammar takes. `shown` has the tokens' words for that."""
     try:
         parser.feed_token(token)
@@ -78,8 +84,9 @@ def feed(parser: InteractiveParser, token: Token, shown: Mapping[str, str]) -> N
             # A number; what else it may begin with goes without saying.
             kinds = kinds - {"MINUS", "LPAR"}
         words = list(dict.fromkeys(shown.get(kind, kind) for kind in sorted(kinds)))
-        wanted = f"{', '.join(words[:-1])} or {words[-1]}" if len(words) > 1 else words[0]
-        raise TextFault(token.start_pos, f"expected {wanted}, found {token or 'the end'}") from None
+        wanted = Phrase("one-or-other", first=tuple(words[:-1]), other=words[-1]) if len(words) > 1 else words[0]
+        found = str(token) or Phrase("rival-end")
+        raise TextFault(token.start_pos, "expected-found", expected=wanted, found=found) from None
 
 
 # Numbers -----------------------------------------------------------------------------------------------------------
@@ -107,7 +114,7 @@ def figure(tree: Tree, name: Callable[[Tree], Figure]) -> Figure:
 
 def _literal(token: Token) -> Figure:
     if Real(token.value) >= LARGEST:
-        raise TextFault(token.start_pos, "a number larger than SKG's largest, 1.7E38")
+        raise TextFault(token.start_pos, "rival-large")
     return Real(token.value), SkgText(token.value)
 
 
@@ -122,7 +129,7 @@ def _joined(tree: Tree, name: Callable[[Tree], Figure]) -> Figure:
         case "TIMES":
             return a * b, join(a_text, "*", b_text)
     if b == 0:
-        raise TextFault(sign.start_pos, "division by zero")
+        raise TextFault(sign.start_pos, "rival-division")
     return a / b, join(a_text, "/", b_text)
 
 

@@ -91,7 +91,7 @@ class _TekhtranMachine:
         try:
             getattr(self, f"_{tree.data}")(children)
         except PlaneError as error:
-            raise TextFault(first_token(tree).start_pos, str(error)) from None
+            raise TextFault.of(first_token(tree).start_pos, error) from None
 
     # Operands ---------------------------------------------------------------------------------------------------
 
@@ -109,7 +109,7 @@ class _TekhtranMachine:
         """КООРД."""
         axis, _ = self.number(index)
         if axis not in (1, 2, 3):
-            raise TextFault(first_token(index).start_pos, "expected 1, 2 or 3")
+            raise TextFault(first_token(index).start_pos, "rival-one-to-three")
         return self.canonical(name)[int(axis) - 1]
 
     def canonical(self, name: Token) -> list[Figure]:
@@ -186,7 +186,7 @@ class _TekhtranMachine:
         else:
             plane = self.named[children[1]].value
             if abs(plane[2]) <= TINY:
-                raise PlaneError("an upright plane gives points no z")
+                raise PlaneError("rival-upright-plane")
             self.plane = plane
 
     def _z(self, value: object) -> Real:
@@ -224,7 +224,7 @@ class _TekhtranMachine:
 
     def _started(self, token: Token) -> _Wire:
         if self.wire is None:
-            raise TextFault(token.start_pos, "the wire has not been started by ИЗ")
+            raise TextFault(token.start_pos, "rival-not-started")
         return self.wire
 
     def _go(self, children: list) -> None:
@@ -261,12 +261,12 @@ class _TekhtranMachine:
         word, *rest = children
         wire = self._started(word)
         if wire.is_moving:
-            raise TextFault(word.start_pos, "after a move a contour needs another ИЗ")
+            raise TextFault(word.start_pos, "rival-start-again")
         offset, text = ZERO, SkgText("0")
         if rest[0].type in ("SPRAVA", "SLEVA"):
             offset, text = self.number(rest[2])
             if offset <= 0:
-                raise TextFault(first_token(rest[2]).start_pos, "a distance from the contour is more than 0")
+                raise TextFault(first_token(rest[2]).start_pos, "rival-distance")
             if rest[0].type == "SLEVA":
                 offset, text = -offset, minus(text)
             rest = rest[4:]

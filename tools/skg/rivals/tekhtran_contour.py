@@ -73,7 +73,7 @@ def cut_items(items: list[ContourItem], token: Token, wire: ExactPoint, offset: 
     """The items of the CUT that BACK makes a contour, from where the wire is; `token`: the statement's word."""
     items = _without_doubles(items)
     if len(items) == 1 and not isinstance(items[0].value, ExactCircle):
-        raise TextFault(token.start_pos, "a contour of one point or line")
+        raise TextFault(token.start_pos, "rival-one-item")
     if len(items) == 1:
         return [str(items[0].text)]
     corners = [_corner(items[index - 1], item) for index, item in enumerate(items[1:], 1)]
@@ -83,7 +83,7 @@ def cut_items(items: list[ContourItem], token: Token, wire: ExactPoint, offset: 
         items = [_run(*between) for between in zip(items, corners, ends, strict=True)]
         stretches = _stretches(items, corners, ends)
         if not any(stretch.is_travelled for stretch in stretches):
-            raise TextFault(token.start_pos, "there is nothing to travel: the items meet in one point")
+            raise TextFault(token.start_pos, "rival-no-travel")
         _check_entry(items[0], stretches, wire, offset)
     return _texts(items, corners, name)
 
@@ -114,15 +114,17 @@ def _corner(before: ContourItem, item: ContourItem) -> _Corner:
     for point, curve in ((item, before), (before, item)):
         if point.is_point:
             if not curve.is_point and not on(curve.value, point.value):
-                raise TextFault(point.token.start_pos, f"{point.token} does not lie on {curve.token}")
+                raise TextFault(point.token.start_pos, "rival-not-on", point=str(point.token), curve=str(curve.token))
             return _Corner(point.value)
     try:
         points = crossings(before.value, item.value)
         if len(points) > 1 and item.choice is None:
-            raise PlaneError("there are two: choose by ХБ, ХМ, УБ or УМ")
+            raise PlaneError("rival-two")
         place = chosen(points, item.choice)
     except PlaneError as error:
-        raise TextFault(item.token.start_pos, f"the corner of {before.token} and {item.token}: {error}") from None
+        raise TextFault(
+            item.token.start_pos, "rival-corner", before=str(before.token), item=str(item.token), why=error.why
+        ) from None
     e, f = (-each.value if each.is_backwards else each.value for each in (before, item))
     return _Corner(place, crossing_text(e, f, place, (SkgText(before.name), SkgText(item.name))))
 
@@ -132,7 +134,7 @@ def _run(item: ContourItem, start: _Corner, end: _Corner) -> ContourItem:
     if not isinstance(item.value, ExactLine):
         return item
     if same_point(start.place, end.place):
-        raise TextFault(item.token.start_pos, f"{item.token} begins and ends in one point")
+        raise TextFault(item.token.start_pos, "rival-no-length", item=str(item.token))
     return item if item.value.way.dot(end.place - start.place) > 0 else item.backwards()
 
 
@@ -154,16 +156,16 @@ def _check_entry(item: ContourItem, stretches: list[Leg], wire: ExactPoint, offs
     last, first, second = stretches[-1], stretches[0], stretches[1]
     if item.is_point:
         if inner_corner(last.curve, first.curve, item.value, offset):
-            raise TextFault(item.token.start_pos, "an inner corner for the wire: begin with a line or circle")
+            raise TextFault(item.token.start_pos, "rival-inner-corner")
         return
     if not (first.is_travelled and first.has(nearest(wire, first.curve))):
-        raise TextFault(item.token.start_pos, f"the wire would not enter {item.token} between its corners")
+        raise TextFault(item.token.start_pos, "rival-enters-past", item=str(item.token))
     path = parallel(first.curve, offset)
     start = wire_corner(last.curve, first.curve, first.start, offset)
     end = wire_corner(first.curve, second.curve, first.end, offset)
     # (without a corner SKG itself reports an error)
     if start and end and not Leg(path, start, end).has(nearest(wire, path)):
-        raise TextFault(item.token.start_pos, f"the wire would enter {item.token} outside of its own corners beside it")
+        raise TextFault(item.token.start_pos, "rival-enters-outside", item=str(item.token))
 
 
 def _texts(items: list[ContourItem], corners: list[_Corner], name: CornerNamer) -> list[str]:

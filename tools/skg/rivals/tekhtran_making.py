@@ -76,7 +76,7 @@ def chosen(choices: Sequence[T], choice: str, place: Callable[[T], ExactPoint] =
         return choices[0]
     first, second = ((place(e).x if choice[0] == "Х" else place(e).y) for e in choices)
     if abs(first - second) <= NEAR:
-        raise PlaneError(f"{choice} does not decide between two")
+        raise PlaneError("rival-undecided", choice=choice)
     return choices[(first < second) == (choice[1] == "Б")]
 
 
@@ -95,13 +95,13 @@ def normal(line: ExactLine) -> tuple[tuple[Real, Real, Real], bool]:
 
 def _distance(d: Operand) -> Real:
     if d.value < 0:
-        raise PlaneError("a distance is not negative")
+        raise PlaneError("rival-negative-distance")
     return d.value
 
 
 def _on(curve: Operand, point: Operand) -> None:
     if not on(curve.value, point.value):
-        raise TextFault(point.token.start_pos, f"{point.token} does not lie on {curve.token}")
+        raise TextFault(point.token.start_pos, "rival-not-on", point=str(point.token), curve=str(curve.token))
 
 
 def _clockwise(turn: Token, value: Real, text: SkgText) -> tuple[Real, SkgText]:
@@ -206,7 +206,7 @@ def line_of_numbers(x1: Operand, y1: Operand, x2: Operand, y2: Operand) -> Defin
 
 def _line_through(first: ExactPoint, second: ExactPoint, texts: tuple[SkgText, SkgText]) -> Defined:
     if same_point(first, second):
-        raise PlaneError("through one point twice there is no line")
+        raise PlaneError("rival-no-line")
     return Defined(joining_line(first, second), join(texts[0], ":", texts[1]))
 
 
@@ -278,7 +278,7 @@ def line_parallel(point: Operand, _: Token, line: Operand) -> Defined:
 
 def _circle(centre: ExactPoint, r: Real, text: SkgText) -> Defined:
     if r <= TINY:
-        raise PlaneError("a radius must be more than 0")
+        raise PlaneError("rival-radius")
     return Defined(ExactCircle(centre, r), text)
 
 
@@ -348,7 +348,7 @@ def plane_of_numbers(*numbers: Operand) -> Defined:
     values = tuple(number.value for number in numbers)
     length = mp.sqrt(sum(value**2 for value in values[:3]))
     if abs(length - 1) > UNIT:
-        raise PlaneError("a plane's first three numbers are the cosines of its normal: their squares make 1")
+        raise PlaneError("rival-plane")
     return Defined(tuple(value / length for value in values))
 
 

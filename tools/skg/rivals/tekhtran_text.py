@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator
 
 from lark import Token, Tree
 
+from skg.messages.finding import Phrase
 from skg.rivals.statement import TextFault, begin, feed
 
 #: Latin letters that are read as the Cyrillic ones of that shape.
@@ -39,19 +40,20 @@ _OTHER_WORDS = """ДЕТАЛЬ КОНЕЦ ПЛЗ ПЧТ1 СЛЕД ИЗ ВТОЧ�
 WORDS = {word: latin(word) for word in [*KINDS, *_OTHER_WORDS.split()]} | {"ОКРУЖИ": latin("ОКРУЖН")}
 SYMBOLS = {"+": "PLUS", "-": "MINUS", "−": "MINUS", "–": "MINUS", "*": "TIMES", "/": "SLASH", "(": "LPAR", ")": "RPAR",
            ",": "COMMA", "=": "EQUALS"}  # fmt: skip
-NAMES = {"POINT": "a point", "LINE": "a line", "CIRCLE": "a circle", "VECTOR": "a vector", "MATRIX": "a matrix",
-         "PLANE": "a plane", "NUMBER": "a number"}  # fmt: skip
+NAMES = {"POINT": Phrase("rival-point"), "LINE": Phrase("rival-line"), "CIRCLE": Phrase("rival-circle"),
+         "VECTOR": Phrase("rival-vector"), "MATRIX": Phrase("rival-matrix"), "PLANE": Phrase("rival-a-plane"),
+         "NUMBER": Phrase("rival-number")}  # fmt: skip
 SHOWN = (
     {kind: word for word, kind in WORDS.items()}
     | {kind: symbol for symbol, kind in reversed(SYMBOLS.items())}
     | NAMES
-    | {f"NEW_{kind}": f"{words}'s name" for kind, words in NAMES.items()}
+    | {f"NEW_{kind}": Phrase("rival-name-of", kind=noun) for kind, noun in NAMES.items()}
     | {
-        "WHOLE": "a number",
-        "DECIMAL": "a number",
-        "KOORD": "a number",
-        "END": "the statement's end",
-        "COMMA": "a comma",
+        "WHOLE": NAMES["NUMBER"],
+        "DECIMAL": NAMES["NUMBER"],
+        "KOORD": NAMES["NUMBER"],
+        "END": Phrase("rival-end-of-statement"),
+        "COMMA": Phrase("rival-comma"),
     }
 )
 _LETTER = "А-Яа-яЁёABCEHKMOPTXYabcehkmoptxy"
@@ -73,7 +75,7 @@ def tokens(text: str) -> Iterator[Token]:
             case "blank":
                 continue
             case "other":
-                raise TextFault(start, f"unknown character {word!r}")
+                raise TextFault(start, "rival-character", word=word)
             case "end":
                 yield Token("END", word.strip(), start_pos=start if word == ";" else end)
                 continue
@@ -112,7 +114,9 @@ def statements(text: str, kind_of: KindOf) -> Iterator[Tree]:
         word, is_new = KINDS.get(token), True
         first = _as_kind(token, kind_of, word, is_new)
         if first.type not in parser.choices():
-            raise TextFault(token.start_pos, f"expected a statement, found {token[:40]}")
+            raise TextFault(
+                token.start_pos, "expected-found", expected=Phrase("rival-statement"), found=str(token[:40])
+            )
         feed(parser, first, SHOWN)
         while token.type != "END":
             is_new = is_new and token.type != "EQUALS" and first.type in _MAKING
@@ -133,5 +137,5 @@ def _as_kind(token: Token, kind_of: KindOf, word: str | None, is_new: bool) -> T
     if is_new:
         kind = f"NEW_{kind or BEGINNINGS.get(token[:2]) or word or 'NUMBER'}"
     elif kind is None:
-        raise TextFault(token.start_pos, f"{token} has not been defined")
+        raise TextFault(token.start_pos, "rival-undefined", name=str(token))
     return Token(kind, token.value, start_pos=token.start_pos)

@@ -110,18 +110,18 @@ class _Machine:
         try:
             getattr(self, f"_{tree.data}")(tree.children)
         except PlaneError as error:
-            raise TextFault(tree.children[0].start_pos, str(error)) from None
+            raise TextFault.of(tree.children[0].start_pos, error) from None
 
     def _make(self, children: list) -> None:
         letter, (given, target) = children[1], _trees(children)
         arguments = [self.argument(tree) for tree in _trees(given.children)]
         kinds = "".join(argument.kind for argument in arguments)
         if (str(letter), kinds) not in FORMS:
-            raise TextFault(letter.start_pos, "of these nothing is made")
+            raise TextFault(letter.start_pos, "rival-nothing-made")
         allowed, form = FORMS[str(letter), kinds]
         for argument, may in zip(arguments, allowed, strict=True):
             if argument.sign and not may:
-                raise TextFault(argument.sign.start_pos, "no sign may stand here")
+                raise TextFault(argument.sign.start_pos, "rival-no-sign")
         self._store(target, form(self.frame, *arguments))
 
     def _store(self, target: Tree, made: NewElement) -> None:
@@ -136,7 +136,7 @@ class _Machine:
         element, line, target = _trees(children)
         mirror = self.argument(line)
         if mirror.kind != "X":
-            raise TextFault(children[1].start_pos, "a mirror is a line")
+            raise TextFault(children[1].start_pos, "rival-mirror")
         e = self.element(element)
         self._store(target, NewElement(mirrored(e.value, mirror.value), image(e.value, e.text, mirror.text)))
 
@@ -200,7 +200,7 @@ class _Machine:
         distance, text = self.number(gap)
         enclosed = area(parts)
         if abs(enclosed) < NO_AREA and distance != 0:
-            raise TextFault(closes, "the route has no inside, so its gap must be 0")
+            raise TextFault(closes, "rival-no-inside")
         if enclosed < 0:
             distance, text = -distance, minus(text)
         self.routes += 1
@@ -227,7 +227,7 @@ class _Machine:
         for tree in trees:
             token = first_token(tree)
             if tree.data in ("number", "times", "mirrored") and not items:
-                raise TextFault(token.start_pos, "expected a point or a circle first")
+                raise TextFault(token.start_pos, "rival-point-first")
             copies = None
             match tree.data:
                 case "point" | "circle":
@@ -251,9 +251,9 @@ class _Machine:
         word, count, _, sign, centre, _, tree_of_angle, _ = tree.children
         times = int(count)
         if times < 2:
-            raise TextFault(word.start_pos, "× is for two times or more")
+            raise TextFault(word.start_pos, "rival-times")
         if times * len(items) > LAST_LINE:
-            raise TextFault(word.start_pos, "more items than SKG's memory takes")
+            raise TextFault(word.start_pos, "rival-memory")
         about = self.element(centre)
         angle, text = self._rotation(sign, tree_of_angle)
         copies = list(items)
@@ -284,7 +284,7 @@ def _trees(children: list) -> list[Tree]:
 
 def _with_arc(item: Hung, arc: Arc) -> Hung:
     if item.arc is not None:
-        raise TextFault(arc.token.start_pos, "two numbers in a row")
+        raise TextFault(arc.token.start_pos, "rival-two-numbers")
     if item.is_pin and arc.radius <= TINY:
-        raise TextFault(arc.token.start_pos, "the radius of a fillet must be more than 0")
+        raise TextFault(arc.token.start_pos, "rival-fillet-radius")
     return Hung(item.value, item.text, item.token, arc)

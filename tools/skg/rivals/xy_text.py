@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 
 from lark import Token, Tree
 
+from skg.messages.finding import Phrase
 from skg.rivals.statement import TextFault, begin, feed
 
 #: TeX words, as the scan has them, and code points, each as the one character that stands for its symbol.
@@ -21,10 +22,11 @@ DROPPED = "$_"
 SYMBOLS = {"⊕": "MAKE", "(+)": "MAKE", "⇒": "NAME_IT", "=>": "NAME_IT", "φ": "ROUTE", "(/)": "ROUTE", "×": "TIMES",
            "*": "TIMES", "←": "CLOSE", "<-": "CLOSE", "-": "MINUS", "+": "PLUS", "/": "SLASH", "(": "LPAR", ")": "RPAR",
            ",": "COMMA", ";": "SEMICOLON"}  # fmt: skip
+_NUMBER, _POINT, _LINE, _CIRCLE = (Phrase(f"rival-{kind}") for kind in ("number", "point", "line", "circle"))
 SHOWN = {"MAKE": "⊕", "NAME_IT": "⇒", "ROUTE": "φ", "TIMES": "×", "CLOSE": "←", "MINUS": "-", "PLUS": "+", "SLASH": "/",
-         "LPAR": "(", "RPAR": ")", "COMMA": ",", "SEMICOLON": ";", "WHOLE": "a number", "DECIMAL": "a number",
-         "VARIABLE": "a variable", "BARE_D": "a point", "OTHER_D": "a point", "BARE_X": "a line", "OTHER_X": "a line",
-         "BARE_Y": "a circle", "OTHER_Y": "a circle"}  # fmt: skip
+         "LPAR": "(", "RPAR": ")", "COMMA": ",", "SEMICOLON": ";", "WHOLE": _NUMBER, "DECIMAL": _NUMBER,
+         "VARIABLE": Phrase("rival-variable"), "BARE_D": _POINT, "OTHER_D": _POINT, "BARE_X": _LINE, "OTHER_X": _LINE,
+         "BARE_Y": _CIRCLE, "OTHER_Y": _CIRCLE}  # fmt: skip
 
 _TOKEN = re.compile(
     r"(?P<symbol>\(\+\)|\(/\)|<-|=>|[⊕⇒φ×*←\-+/(),;])|(?P<number>[0-9]+(?:\.[0-9]+)?)"
@@ -46,7 +48,7 @@ def _folded(text: str) -> tuple[str, list[int], TextFault | None]:
         if char == "\\":
             word = _TEX.match(text, index)
             if not word or word[0] not in WORDS:
-                fault = TextFault(index, f"unknown word {word[0] if word else char}")
+                fault = TextFault(index, "rival-word", word=word[0] if word else char)
                 return "".join(out), [*indices, index], fault
             char, length = WORDS[word[0]], len(word[0])
         if char not in DROPPED:
@@ -68,13 +70,14 @@ def tokens(text: str) -> Iterator[Token]:
             case "blank":
                 continue
             case "other":
-                wrong = f"unknown character {word!r}" if word != "." else "a number begins with a digit"
-                raise TextFault(indices[start], wrong)
+                if word == ".":
+                    raise TextFault(indices[start], "rival-digit-first")
+                raise TextFault(indices[start], "rival-character", word=word)
             case "symbol":
                 kind = SYMBOLS[word]
             case "number":
                 if folded[index : index + 1] == "." and "." not in word:
-                    raise TextFault(indices[index] + 1, "expected a digit behind the point")
+                    raise TextFault(indices[index] + 1, "rival-digit")
                 kind = "DECIMAL" if "." in word else "WHOLE"
             case _:
                 word = word.upper()
@@ -91,10 +94,10 @@ def _kind(word: str, index: int) -> str:
         return word
     name = _NAME.fullmatch(word)
     if not name:
-        raise TextFault(index, f"unknown word {word}")
+        raise TextFault(index, "rival-word", word=word)
     letter, subscript = name.groups()
     if not _SUBSCRIPT.fullmatch(subscript):
-        raise TextFault(index, f"{word}: names go from {letter}0 to {letter}99")
+        raise TextFault(index, "rival-name", word=word, letter=letter)
     if letter not in "DXY":
         return "VARIABLE"
     return f"{'OTHER' if subscript else 'BARE'}_{letter}"
@@ -115,7 +118,7 @@ def statements(text: str, is_made: Callable[[str], bool]) -> Iterator[Tree]:
             feed(parser, token, SHOWN)
             is_name = token.type == "VARIABLE" or token.type[:-1] in ("BARE_", "OTHER_")
             if is_name and before not in ("MAKE", "NAME_IT") and not is_made(token):
-                raise TextFault(token.start_pos, f"{token} has not been made")
+                raise TextFault(token.start_pos, "rival-unmade", name=str(token))
             if token.type == "SEMICOLON":
                 break
             before = token.type
