@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from decimal import ROUND_HALF_UP, Decimal
 
+from skg.cutting.holes import holes_of
 from skg.cutting.ladder import CutResult
 from skg.job.job import Price
 from skg.messages.finding import Finding, Phrase
@@ -15,9 +16,9 @@ _CENT = Decimal("0.01")
 
 @dataclass(frozen=True)
 class Cost:
-    """What a cut takes. `areas`: mm² in each pass, none without the stock's thickness; `holes`: start holes; `passes`:
-    along contours. `parts`: what the areas, the holes and the passes come to, None: without prices, or without a
-    thickness that they want. `is_without`: so do the prices, or the rates."""
+    """What a cut takes. `areas`: mm² in each pass, none without the stock's thickness; `holes`: start holes, each
+    once; `passes`: along contours. `parts`: what the areas, the holes and the passes come to, None: without prices, or
+    without a thickness that they want. `is_without`: so do the prices, or the rates."""
 
     thickness: float | None
     areas: tuple[int, ...]
@@ -33,7 +34,7 @@ class Cost:
         machine = result.machine
         thick = machine.thickness
         areas = tuple(round(length * thick) for length in result.checked.lengths) if thick else ()
-        holes = sum(len(route.holes) for route in result.routes)
+        holes = len(holes_of(result.routes))
         passes = sum(len(route.passes) for route in result.routes)
         is_wanted = any((*price.per_area, price.per_hole, price.per_pass))
         is_without = not thick and any((*price.per_area, *machine.rates))

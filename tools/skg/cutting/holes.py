@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from decimal import Decimal
 from io import StringIO
 
 from skg.errors import UserError
+from skg.geometry.plane import XY
 from skg.messages.finding import Finding
 from skg.planning.planned import PlannedContour
 from skg.tape.block import micrometres
@@ -37,7 +38,9 @@ def findings(routes: Sequence[PlannedContour], thickness: float | None, name: st
     if name.lower().endswith(CSV) or thickness is None:
         return []
     depth = thickness + OVER
-    return [Finding("drilled", count=len(_holes(routes)), depth=depth, over=OVER, clear=CLEAR, feed=FEED).within(name)]
+    return [
+        Finding("drilled", count=len(holes_of(routes)), depth=depth, over=OVER, clear=CLEAR, feed=FEED).within(name)
+    ]
 
 
 def table(routes: Sequence[PlannedContour]) -> bytes:
@@ -45,8 +48,9 @@ def table(routes: Sequence[PlannedContour]) -> bytes:
     text = StringIO(newline="")
     writer = csv.writer(text)
     writer.writerow(("hole", "x_mm", "y_mm", "contour", "kind"))
-    for number, ((x, y), route) in enumerate(_holes(routes).items(), 1):
-        writer.writerow((number, f"{x / 1000:.3f}", f"{y / 1000:.3f}", route.turn, route.kind))
+    for number, ((x, y), route) in enumerate(holes_of(routes), 1):
+        # (-0.0001 is 0.000)
+        writer.writerow((number, *(f"{round(part, 3) + 0.0:.3f}" for part in (x, y)), route.turn, route.kind))
     return text.getvalue().encode("ascii")
 
 
@@ -54,17 +58,21 @@ def drilled(routes: Sequence[PlannedContour], thickness: float | None, name: str
     """The program that drills the holes through the stock, by G81."""
     if thickness is None:
         raise UserError(Finding("drill-without-thickness").within(name))
-    holes, depth = list(_holes(routes)), -micrometres(thickness + OVER)
+    holes, depth = [_spot(hole) for hole, _ in holes_of(routes)], -micrometres(thickness + OVER)
     text = drilling(holes, depth, micrometres(CLEAR), FEED, _NOTE)
     if read(text, name).path.marks != [Drilled(hole, Decimal(depth)) for hole in holes]:
         raise UserError(Finding("read-back-empty").within(name))
     return text.encode("ascii")
 
 
-def _holes(routes: Sequence[PlannedContour]) -> dict[Spot, PlannedContour]:
-    """The places of the holes, µm, each once, with the first contour that is cut from there."""
-    holes: dict[Spot, PlannedContour] = {}
+def holes_of(routes: Iterable[PlannedContour]) -> list[tuple[XY, PlannedContour]]:
+    """The places of the holes, mm, each once, with the first contour that is cut from there."""
+    holes: dict[Spot, tuple[XY, PlannedContour]] = {}
     for route in routes:
-        for x, y in route.holes:
-            holes.setdefault((micrometres(x), micrometres(y)), route)
-    return holes
+        for hole in route.holes:
+            holes.setdefault(_spot(hole), (hole, route))
+    return list(holes.values())
+
+
+def _spot(place: XY) -> Spot:
+    return micrometres(place[0]), micrometres(place[1])

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from skg.checking.follow import Stretch
 from skg.checking.wire_path import LIMIT
+from skg.cutting.holes import holes_of
 from skg.cutting.ladder import CutResult
 from skg.cutting.manner import manners, numbered, stops
 from skg.cutting.refusal import depth
@@ -50,7 +51,7 @@ def _facts(result: CutResult, offset: float) -> Iterator[Finding]:
     """Order, manners, length, how the tape was made and what the check found."""
     machine, routes = result.machine, result.routes
     kinds = Counter(route.kind for route in routes)
-    holes = [hole for route in routes for hole in route.holes]
+    holes = [hole for hole, _ in holes_of(routes)]
     more = len(holes) - _PLACES
     yield Finding(
         "order-of-cutting",

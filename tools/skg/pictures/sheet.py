@@ -17,6 +17,7 @@ from matplotlib.patches import Circle, PathPatch, Polygon
 from matplotlib.transforms import Affine2D
 
 from skg.checking.check import drawn
+from skg.cutting.holes import holes_of
 from skg.cutting.ladder import CutResult
 from skg.cutting.manner import manners, stops
 from skg.cutting.report import pace
@@ -485,7 +486,7 @@ class SetupSheet:
         wire = untold
         if setup.wire is not None:
             wire = text(Phrase("sheet-wire-and-gap", wire=setup.wire, gap=setup.gap or 0.0))
-        holes = Phrase("count-holes", count=len(self.holes))
+        holes = Phrase("count-holes", count=len(holes_of(result.routes)))
         blocks = Phrase("count-blocks", count=len(result.tape.blocks))
         without = Phrase("sheet-without-room", count=left_out) if left_out else None
         ratio = f"{self.scale:.4g}:1" if self.scale >= 1 else f"1:{1 / self.scale:.4g}"
