@@ -914,6 +914,76 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await context.close();
   });
 
+  test("the part is turned, mirrored, given a zero and copied: the tape is the command line's, drawing and job stay the drawing's", async () => {
+    const started = await start();
+    const { context, page, said } = await visit(started.url, { viewport: LOW });
+    await drawn(page);
+    await type(page, "field-wire", "0.18");
+    await page.click("#part summary");
+    await page.selectOption("#field-mirror", "x");
+    await type(page, "field-turn", "90");
+    await page.selectOption("#field-origin", "lower-left");
+    await type(page, "field-columns", "2");
+    // (a step with room, as the part lies: 30 wide, 70 high)
+    await value(page, "field-step-x", "35");
+    await type(page, "field-step-x", "40");
+    await settled(page);
+    await settledView(page);
+    // the copy and the zero are on the drawing, whose places are what they were
+    // (on the machine x runs where the drawing's y does, downwards: the copy is 40 below)
+    const places = [
+      [35, 30],
+      [35, -40],
+      [35, -25],
+    ] as const;
+    const isDrawn = await page.evaluate(
+      (pixels) => {
+        const canvas = document.getElementById("base") as HTMLCanvasElement;
+        const { left, top } = canvas.getBoundingClientRect();
+        const of = canvas.width / canvas.clientWidth;
+        // (all at once: a canvas that is read often is said to be slow)
+        const image = canvas.getContext("2d")?.getImageData(0, 0, canvas.width, canvas.height) as ImageData;
+        const near = [-2, -1, 0, 1, 2];
+        return pixels.map(([x, y]) => {
+          const [column, row] = [Math.round((x - left) * of), Math.round((y - top) * of)];
+          return near.some((by) =>
+            near.some((aside) => (image.data[4 * ((row + by) * image.width + column + aside) + 3] ?? 0) > 0),
+          );
+        });
+      },
+      await Promise.all(places.map((place) => pixel(page, place))),
+    );
+    assert.deepEqual(isDrawn, [true, true, false]);
+    await click(page, [18, 15]);
+    await settled(page);
+    await settledView(page);
+    const handles = JSON.parse((await page.getAttribute("#over", "data-handles")) ?? "");
+    assert.ok(Math.hypot(handles.start[0] - 12, handles.start[1] - 15) < 0.01);
+    await cut(page);
+    await page.click("#tab-report");
+    await says(page, "#report", /2 copies/);
+    await page.screenshot({ path: join(SHOTS, "ui-part.png") });
+    await page.click("#save");
+    await page.click("#save-yes");
+    await message(page, /beside the drawing/);
+    await page.click("#shut");
+    const words = "--wire 0.18 --mirror x --turn 90 --origin lower-left --columns 2 --step 40,75".split(" ");
+    assert.deepEqual(started.file("bracket.nodrift.3b"), cutByCommand(started.folder, "bracket.dxf", ...words));
+    // a step of a moment's thought: none is no job, and a contour's middle is the zero
+    await page.click("#fit");
+    await settledView(page);
+    await page.mouse.click(...(await pixel(page, [18, 15])), { button: "right" });
+    await page.click("#menu >> text=Zero here");
+    await value(page, "field-origin", "point");
+    await value(page, "field-origin-at-x", "12");
+    await type(page, "field-around", "3");
+    await value(page, "field-columns", "1");
+    await value(page, "field-about-x", "0");
+    await settled(page);
+    assert.deepEqual(said, []);
+    await context.close();
+  });
+
   test("20,000 circles: open, panned, chosen; a frame costs no more than one of 2,000", async (t) => {
     const costs: number[] = [];
     for (const count of [MANY / 10, MANY]) {

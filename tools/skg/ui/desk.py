@@ -233,7 +233,8 @@ class Desk:
             free = replace(tried[number], start=None, entry=None, order=None)
             tried[number] = free if free != tried[number] else replace(free, cut=False)
         self._routes = {route.number: route for route in routes}
-        return self._plans.written(routes, wanted, errors, placement)
+        pattern = self._drawn.pattern(job)
+        return self._plans.written(routes, wanted, errors, placement, pattern)
 
 
 @contextmanager

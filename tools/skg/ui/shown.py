@@ -26,6 +26,7 @@ from skg.messages.render import Medium, Speech, text
 from skg.messages.severity import Severity
 from skg.pipeline.placing import as_drawn
 from skg.pipeline.steps import CutDrawing, DrawnJob
+from skg.planning.copies import Pattern
 from skg.planning.nesting import findings
 from skg.planning.planned import PlannedContour
 from skg.planning.runs import Lead, Run
@@ -170,9 +171,10 @@ class Plans:
         wanted: Sequence[Wanted],
         errors: Sequence[UserError],
         placement: Placement,
+        pattern: Pattern | None,
     ) -> tuple[bytes, bytes]:
         """The plan of all contours, and the same with those alone that were told otherwise the last time. `placement`:
-        where the drawing lies on the machine; all is told in its own places."""
+        where the drawing lies on the machine, `pattern`: its copies; all is told in its own places."""
         turns = {route.number: (turn, route) for turn, route in enumerate(routes, 1)}
         why = {error.contour: told(error) for error in errors if error.contour is not None}
         contours = []
@@ -189,6 +191,7 @@ class Plans:
                 for entry in findings((route.turn, route.remarks.around) for route in routes)
             ],
             "error": told(errors[0]) if errors else None,
+            "lying": in_json(lying(placement, pattern)),
         }
         whole, part = (
             encoded(data | {"contours": f"{{{','.join(entries)}}}".encode()}) for entries in (contours, changed)
@@ -217,6 +220,24 @@ def _values(want: Wanted, is_slug: bool) -> str:
     values |= {name: list(getattr(want, name)) for name in ("passes", "tab_passes")}
     tabs = want.tabs if isinstance(want.tabs, int) else list(map(list, want.tabs))
     return in_json(values | {"tab": want.slug_tab if is_slug else want.tab, "tabs": tabs}).decode()
+
+
+def lying(placement: Placement, pattern: Pattern | None) -> dict[str, Any]:
+    """Where the part lies on the machine, in the places of the drawing: `zero`, what is 0, 0, and the ways that x and y
+    run there; `copies`: of each but the first one the matrix (a, b, c, d, x, y) that takes the part there."""
+    back = placement.back
+    zero = back.place((0.0, 0.0))
+    ends = back.place((1.0, 0.0)), back.place((0.0, 1.0))
+    corner, *axes = (placement.place(point) for point in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0)))
+    copies = []
+    for to in pattern.placements[1:] if pattern else []:
+        (x, y), (a, b), (c, d) = (back.place(to.place(point)) for point in (corner, *axes))
+        copies.append([round(value, 9) for value in (a - x, b - y, c - x, d - y, x, y)])
+    return {
+        "zero": None if placement.is_nothing else place(zero),
+        "axes": [[round(x - zero[0], 6), round(y - zero[1], 6)] for x, y in ends],
+        "copies": copies,
+    }
 
 
 def planned(route: PlannedContour, placement: Placement) -> dict[str, Any]:

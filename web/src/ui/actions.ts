@@ -1,7 +1,8 @@
 /** Actions on the chosen contours, by a key or in their menu. */
 import { alikeTo } from "./alike.ts";
 import type { Desk } from "./desk.ts";
-import { type Change, change, isCut, reset } from "./edits.ts";
+import { type Change, change, isCut, reset, rounded, set } from "./edits.ts";
+import { millimetres } from "./geometry.ts";
 import type { Side } from "./types.ts";
 
 const SIDES: readonly Side[] = ["auto", "inside", "outside", "on"];
@@ -59,6 +60,16 @@ export class Actions {
   alike(): void {
     const { contours, chosen } = this.#desk;
     if (chosen.length) this.#desk.choose({ contours: alikeTo(contours, chosen) });
+  }
+
+  /** The middle of the chosen contour is 0, 0 on the machine. */
+  zero(): void {
+    const [id] = this.#desk.chosen;
+    const shape = id === undefined ? undefined : this.#desk.shapes.get(id);
+    if (!shape) return;
+    const [left, bottom, right, top] = shape.box;
+    const middle = rounded(millimetres([(left + right) / 2, (bottom + top) / 2]));
+    this.#desk.edit(set(this.#desk.edited, "place", "origin", middle));
   }
 
   reset(): void {

@@ -9,6 +9,7 @@ import type { Desk } from "./desk.ts";
 import { type Change, change } from "./edits.ts";
 import { type Box, micrometres, millimetres } from "./geometry.ts";
 import { type Grip, type Handle, handlesOf, stepped } from "./handles.ts";
+import { boxWithCopies, WayBack } from "./lying.ts";
 import { holesOf, measured, type Picked, pick } from "./measure.ts";
 import { Overlay, type Ring } from "./overlay.ts";
 import { Picture } from "./picture.ts";
@@ -35,6 +36,8 @@ export class Canvas {
   #drag: Handle | undefined;
   /** The name and the box of the drawing that is seen. */
   #part = "";
+  #back = new WayBack();
+  #copies = "[]";
   /** The pointer's place, mm; undefined: it is elsewhere. */
   onPoint: (place: Point | undefined) => void = () => undefined;
   /** A contour is asked for what can be done with it, at a place of the window. */
@@ -66,6 +69,7 @@ export class Canvas {
       if (news.has("selection")) this.hold(undefined);
       if (news.has("selection") && !news.has("drawing")) this.bringIn();
       if (news.has("plan") || news.has("drawing")) this.#renew();
+      if (news.has("plan")) this.#copied();
       this.#soon();
     });
   }
@@ -75,7 +79,8 @@ export class Canvas {
     this.#renew();
   }
 
-  set walk(walk: Wire | undefined) {
+  set walk(wire: Wire | undefined) {
+    const walk = wire && { ...wire, place: this.#back.place(wire.place) };
     this.overlay.walk = walk;
     if (walk && this.#isHeld) this.#show([...walk.place, ...walk.place]);
     this.#soon();
@@ -113,7 +118,7 @@ export class Canvas {
     if (state) {
       const [left, bottom] = micrometres(state.low);
       const [width, height] = micrometres(state.size);
-      this.view.fit([left, bottom, left + width, bottom + height], ...this.#size);
+      this.view.fit(boxWithCopies(this.#desk.plan.lying, [left, bottom, left + width, bottom + height]), ...this.#size);
     }
     this.#soon();
   }
@@ -130,18 +135,25 @@ export class Canvas {
     this.#soon();
   }
 
-  /** The tape over which the controller walks. */
-  set blocks(blocks: readonly Placed[]) {
-    this.overlay.blocks = blocks;
+  /** The tape over which the controller walks; `back`: the way from the machine to the drawing. */
+  take(blocks: readonly Placed[], back = new WayBack()): void {
+    this.#back = back;
+    this.overlay.blocks = blocks.map((block) => back.block(block));
     this.overlay.block = undefined;
     this.#soon();
   }
 
   /** A block of it that is pointed at. */
   showBlock(placed: Placed | undefined): void {
-    this.overlay.block = placed;
-    if (placed) this.#show(boxOfBlock(placed));
+    const block = placed && this.#back.block(placed);
+    this.overlay.block = block;
+    if (block) this.#show(boxOfBlock(block));
     this.#soon();
+  }
+
+  /** A place on the machine, µm. */
+  pointOnMachine(place: XY): void {
+    this.point(millimetres(this.#back.place(place)));
   }
 
   /** A place of the report. */
@@ -200,6 +212,14 @@ export class Canvas {
     this.#part = part;
     this.#picture.clear();
     this.fit();
+  }
+
+  /** Looks at all copies where they are others, but where one has looked closer. */
+  #copied(): void {
+    const copies = JSON.stringify(this.#desk.plan.lying?.copies ?? []);
+    if (copies === this.#copies) return;
+    this.#copies = copies;
+    if (!this.#isHeld) this.fit();
   }
 
   #renew(): void {

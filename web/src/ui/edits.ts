@@ -102,8 +102,13 @@ export function forget({ job, ids }: Edited, index: number): Edited {
   return { job: { ...job, contour: without(job.contour ?? []) }, ids: without(ids) };
 }
 
-/** A value of the machine, of prices or of how the drawing is read; undefined: the usual one. */
-export function set(before: Edited, part: "machine" | "read" | "price", key: string, value: unknown): Edited {
+/** A value of the machine, of prices, of how the drawing is read, or of where it lies; undefined: the usual one. */
+export function set(
+  before: Edited,
+  part: "machine" | "read" | "price" | "place" | "copies",
+  key: string,
+  value: unknown,
+): Edited {
   const { [key]: _, ...others } = before.job[part] ?? {};
   return { ...before, job: { ...before.job, [part]: value === undefined ? others : { ...others, [key]: value } } };
 }

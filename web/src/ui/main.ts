@@ -17,6 +17,7 @@ import { shown } from "./look.ts";
 import { MachineFields } from "./machine.ts";
 import { MatchList } from "./matches.ts";
 import { Menu } from "./menu.ts";
+import { PartFields } from "./part.ts";
 import { Report } from "./report.ts";
 import { Results } from "./result.ts";
 import { Saving } from "./saving.ts";
@@ -40,6 +41,7 @@ const tree = new Tree(get("tree"), desk);
 const matches = new MatchList(desk);
 const fields = new Fields(desk, show);
 const machine = new MachineFields(desk, show);
+const part = new PartFields(desk, show);
 const told = new TellTale(desk, cutting, canvas.ways);
 const decisions = new Decisions(desk, canvas, told);
 const report = new Report(desk, told, (line) => decisions.look(line));
@@ -51,6 +53,7 @@ const appearance = new Appearance(
   () => {
     fields.name();
     machine.name();
+    part.name();
     setups.show();
     matches.show();
     tree.name();
@@ -89,7 +92,7 @@ function takeTyped(): boolean {
   }
   const refused = document.querySelector<HTMLInputElement>(".field [aria-invalid=true]");
   if (!refused) return true;
-  get<HTMLDetailsElement>("more").open ||= get("more").contains(refused);
+  for (const id of ["part", "more"]) get<HTMLDetailsElement>(id).open ||= get(id).contains(refused);
   refused.focus();
   show(w("badField", refused.labels?.[0]?.textContent ?? refused.ariaLabel ?? "", refused.value));
   return false;

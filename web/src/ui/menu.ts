@@ -47,6 +47,7 @@ export class Menu {
           ] as [string, () => void][])
         : []),
       ...(count > chosen.length ? ([[w("alike", count), () => actions.alike()]] as [string, () => void][]) : []),
+      ...(contour.closed ? ([[w("zeroHere"), () => actions.zero()]] as [string, () => void][]) : []),
       [w("resetToLayer"), () => actions.reset()],
     ];
     box.ariaLabel = w("menuOf", titleOf(contour));

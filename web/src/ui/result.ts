@@ -11,7 +11,8 @@ import { WalkBar } from "../walkbar.ts";
 import type { Canvas } from "./canvas.ts";
 import type { Cutting } from "./cutting.ts";
 import { Drawer } from "./drawer.ts";
-import { micrometres, millimetres } from "./geometry.ts";
+import { micrometres } from "./geometry.ts";
+import { WayBack } from "./lying.ts";
 import type { Saving } from "./saving.ts";
 import { Gone, Refusal, type Server } from "./server.ts";
 import type { TellTale } from "./told.ts";
@@ -89,7 +90,7 @@ export class Results {
       const rest = await this.#server.tape(run, this.#saving.style, block.number);
       const name = outcome.result.tape_name.replace(/((\.nodrift)?\.3b)$/, `.from${block.number}$1`);
       saveFile(name, rest);
-      this.#canvas.point(millimetres(block.start));
+      this.#canvas.pointOnMachine(block.start);
       show(w("downloaded", name));
     } catch (error) {
       if (!(error instanceof Gone || error instanceof Refusal)) throw error;
@@ -120,7 +121,7 @@ export class Results {
     try {
       const [tape, program] = await Promise.all([this.#server.file(run, "tape"), this.#server.file(run, "program")]);
       if (run !== this.#shown) return;
-      this.#take(layOut(readTape(await tape.text()).items, micrometres(result.start)).layout);
+      this.#take(layOut(readTape(await tape.text()).items, micrometres(result.start)).layout, new WayBack(result.back));
       get("program").textContent = (await program.text()).replace(/\r\n/g, "\n");
     } catch (error) {
       if (!(error instanceof Gone || error instanceof Refusal)) throw error;
@@ -149,11 +150,11 @@ export class Results {
     }
   }
 
-  #take(layout: Layout): void {
+  #take(layout: Layout, back?: WayBack): void {
     this.#layout = layout;
     this.#chooser.choose(undefined);
     this.#list.show(layout);
-    this.#canvas.blocks = layout.blocks;
+    this.#canvas.take(layout.blocks, back);
     get("walk").hidden = !layout.blocks.length;
     this.#walkBar.begin(layout);
     void this.#walkBar.grown();

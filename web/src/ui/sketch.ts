@@ -14,6 +14,7 @@ import {
   wayToEntry,
   wrapped,
 } from "./geometry.ts";
+import { copiesOf, drawZero } from "./lying.ts";
 import { arrowHead, isSeen, Pen, pathOf, seenBox } from "./pen.ts";
 import type { Planned, Point } from "./types.ts";
 import { MOST as MOST_WAYS, type WireWays } from "./ways.ts";
@@ -91,11 +92,33 @@ export class Sketch {
     yield;
     context.lineJoin = context.lineCap = "round";
     yield* this.#left(context, view, size, colours);
+    yield* this.#copies(context, view, colours);
     yield* this.#bands(context, view, seen, colours);
     yield* this.#lines(context, view, seen, colours);
     yield* this.#marks(context, view, seen, colours);
     yield* this.#directions(context, view, seen, colours);
     yield* this.#numbers(context, view, seen, colours);
+    const { lying } = this.#desk.plan;
+    if (lying) drawZero(context, view, lying, colours.chosen);
+  }
+
+  /** Copies of what is cut, thin: they are cut like the part. */
+  *#copies(context: CanvasRenderingContext2D, view: View, colours: Colours): Generator<undefined> {
+    const cut = [...this.#desk.shapes.values()].filter(({ contour }) => this.#desk.planned(contour.id)?.cut);
+    context.strokeStyle = colours.wire;
+    context.lineWidth = 1;
+    context.globalAlpha = 0.55;
+    for (const edges of copiesOf(
+      this.#desk.plan.lying,
+      cut.flatMap((shape) => shape.edges),
+    )) {
+      const pen = new Pen(view);
+      pen.edges(edges);
+      pen.stroke(context);
+      yield;
+      context.globalAlpha = 0.55;
+    }
+    context.globalAlpha = 1;
   }
 
   *#bands(context: CanvasRenderingContext2D, view: View, seen: readonly Seen[], { wire }: Colours): Generator<undefined> {

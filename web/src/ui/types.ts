@@ -49,6 +49,8 @@ export interface Job {
   readonly sha256: string;
   readonly read?: Values;
   readonly machine?: Values;
+  readonly place?: Values;
+  readonly copies?: Values;
   readonly default?: Wanted;
   readonly tape?: Values;
   readonly price?: Values;
@@ -115,7 +117,18 @@ export interface Planned {
   readonly error?: Fault | null;
 }
 
+/** The part on the machine, in the places of the drawing: what is 0, 0 there, the ways of x and y; the matrices of copies. */
+export interface Lying {
+  readonly zero: Point | null;
+  readonly axes: readonly [Point, Point];
+  readonly copies: readonly Matrix[];
+}
+
+/** x goes to a·x + c·y + e, y to b·x + d·y + f. */
+export type Matrix = readonly [number, number, number, number, number, number];
+
 export interface Plan {
+  readonly lying?: Lying;
   readonly order: readonly number[];
   readonly said: readonly Line[];
   readonly error?: Fault | null;
@@ -203,6 +216,8 @@ export interface Result {
   readonly off_um: number;
   readonly tape_name: string;
   readonly start: Point;
+  /** The way from the machine to the drawing: a matrix's rows, what goes to what, mm. */
+  readonly back: readonly number[];
 }
 
 export interface Run {
