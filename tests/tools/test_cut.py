@@ -445,7 +445,7 @@ def test_everyone_who_is_cut_into_is_named(run: Run, tmp_path: Path) -> None:
     strips = [numbers[at] for at in range(4)]
     neighbours = {frozenset(two) for two in pairwise(strips)} | {frozenset((strips[0], numbers[4]))}
     assert {frozenset(two) for two in pairs} == neighbours and len(pairs) == 8, told
-    depths = re.findall(rf"{CARE}: .* contour \d .*?([\d.]+) mm.* contour \d at \(", told)
+    depths = re.findall(rf"{CARE} .* contour \d .*?([\d.]+) mm.* contour \d at \(", told)
     assert (depths.count("0.004"), depths.count("0.05")) == (1, 3)
 
 
