@@ -63,96 +63,118 @@ static int hex_bytes(const char *line, uint8_t record[256 + 5])
     return count;
 }
 
-/* Carries out one line of a .hex file; NULL, or its error. */
-static const char *hex_line(const char *line, uint8_t *rom, bool *given, size_t rom_size, int *ended)
+/* Carries out one line of a .hex file. */
+static enum image_fault hex_line(const char *line, uint8_t *rom, bool *given, size_t rom_size, int *ended)
 {
     uint8_t record[256 + 5];
     if (*line == '\0' || *line == '\r') {
-        return NULL;
+        return IMAGE_GOOD;
     }
     if (*ended) {
-        return "more after the end record";
+        return IMAGE_AFTER_END;
     }
     int count = *line == ':' ? hex_bytes(line + 1, record) : -1;
     if (count < 5) {
-        return "not an Intel hex record";
+        return IMAGE_NO_RECORD;
     }
     unsigned length = record[0], address = record[1] << 8 | record[2], sum = 0;
     if (count != (int)length + 5) {
-        return "the record's length is wrong";
+        return IMAGE_RECORD_LENGTH;
     }
     for (int i = 0; i < count; i++) {
         sum += record[i];
     }
     if (sum & 0xff) {
-        return "the checksum is wrong";
+        return IMAGE_CHECKSUM;
     }
     const uint8_t *data = record + 4;
     switch (record[3]) {
     case HEX_DATA:
         if (address + length > rom_size) {
-            return "data past the end of the ROM";
+            return IMAGE_PAST_ROM;
         }
         memcpy(rom + address, data, length);
         memset(given + address, true, length);
-        return NULL;
+        return IMAGE_GOOD;
     case HEX_END:
         *ended = 1;
-        return NULL;
+        return IMAGE_GOOD;
     case HEX_SEGMENT:
     case HEX_UPPER:
-        return length == 2 && !data[0] && !data[1] ? NULL : "an address past FFFF";
+        return length == 2 && !data[0] && !data[1] ? IMAGE_GOOD : IMAGE_PAST_FFFF;
     case HEX_START:
     case HEX_START32:
-        return NULL;
+        return IMAGE_GOOD;
     default:
-        return "unknown kind of record";
+        return IMAGE_KIND;
     }
 }
 
-int image_rom_of(const char *path, char *bytes, size_t length, uint8_t *rom, bool *given, size_t rom_size, char *error,
-                 size_t size)
+enum image_fault image_rom_of(const char *path, char *bytes, size_t length, uint8_t *rom, bool *given, size_t rom_size,
+                              int *line)
 {
     const char *dot = strrchr(path, '.');
     int hex = dot && !strcasecmp(dot, ".hex");
     memset(rom, 0xff, rom_size);
     memset(given, !hex, rom_size);
+    *line = 0;
     if (!hex) {
-        bool whole = length == rom_size;
-        if (whole) {
-            memcpy(rom, bytes, length);
-        } else {
-            snprintf(error, size, "%s: %zu bytes, expected a ROM image of %zu", path, length, rom_size);
+        if (length != rom_size) {
+            return IMAGE_LENGTH;
         }
-        return whole ? 0 : -1;
+        memcpy(rom, bytes, length);
+        return IMAGE_GOOD;
     }
-    int ended = 0, number = 0;
-    const char *wrong = strlen(bytes) == length ? NULL : "not a text file";
-    for (char *line = bytes, *next; !wrong && line; line = next) {
-        next = strchr(line, '\n');
+    if (strlen(bytes) != length) {
+        *line = 1;
+        return IMAGE_NO_TEXT;
+    }
+    int ended = 0;
+    for (char *text = bytes, *next; text; text = next) {
+        next = strchr(text, '\n');
         if (next) {
             *next++ = '\0';
         }
-        number++;
-        wrong = hex_line(line, rom, given, rom_size, &ended);
+        ++*line;
+        enum image_fault fault = hex_line(text, rom, given, rom_size, &ended);
+        if (fault) {
+            return fault;
+        }
     }
-    if (wrong) {
-        snprintf(error, size, "%s:%d: %s", path, number ? number : 1, wrong);
-    } else if (!ended) {
-        snprintf(error, size, "%s: no end record", path);
-    } else {
-        return 0;
-    }
-    return -1;
+    *line = 0;
+    return ended ? IMAGE_GOOD : IMAGE_NO_END;
 }
+
+static const char *const SAID[] = {
+    [IMAGE_NO_TEXT] = "not a text file",
+    [IMAGE_NO_RECORD] = "not an Intel hex record",
+    [IMAGE_RECORD_LENGTH] = "the record's length is wrong",
+    [IMAGE_CHECKSUM] = "the checksum is wrong",
+    [IMAGE_PAST_ROM] = "data past the end of the ROM",
+    [IMAGE_PAST_FFFF] = "an address past FFFF",
+    [IMAGE_KIND] = "unknown kind of record",
+    [IMAGE_AFTER_END] = "more after the end record",
+    [IMAGE_NO_END] = "no end record",
+};
 
 int image_rom(const char *path, uint8_t *rom, bool *given, size_t rom_size, char *error, size_t size)
 {
     size_t length;
+    int line;
     uint8_t *bytes = image_read(path, IMAGE_FILE_LIMIT, &length, error, size);
-    int failed = bytes ? image_rom_of(path, (char *)bytes, length, rom, given, rom_size, error, size) : -1;
+    if (!bytes) {
+        return -1;
+    }
+    enum image_fault fault = image_rom_of(path, (char *)bytes, length, rom, given, rom_size, &line);
     free(bytes);
-    return failed;
+    if (fault == IMAGE_LENGTH) {
+        snprintf(error, size, "%s: %zu bytes, expected a ROM image of %zu", path, length, rom_size);
+    } else if (line) {
+        snprintf(error, size, "%s:%d: %s", path, line, SAID[fault]);
+    } else if (fault) {
+        snprintf(error, size, "%s: %s", path, SAID[fault]);
+    }
+    return fault ? -1 : 0;
 }
 
 uint32_t image_crc32(const uint8_t *bytes, size_t length)

@@ -22,9 +22,24 @@ uint8_t *image_read(const char *path, size_t limit, size_t *length, char *error,
  * Returns 0, or -1 with `error` as above. */
 int image_rom(const char *path, uint8_t *rom, bool *given, size_t rom_size, char *error, size_t size);
 
-/* The same of a file's bytes, which end in a NUL and are changed. */
-int image_rom_of(const char *path, char *bytes, size_t length, uint8_t *rom, bool *given, size_t rom_size, char *error,
-                 size_t size);
+/* What is wrong with an image; tools/skg/machine/emulator.py has the same order. */
+enum image_fault {
+    IMAGE_GOOD,
+    IMAGE_LENGTH,
+    IMAGE_NO_TEXT,
+    IMAGE_NO_RECORD,
+    IMAGE_RECORD_LENGTH,
+    IMAGE_CHECKSUM,
+    IMAGE_PAST_ROM,
+    IMAGE_PAST_FFFF,
+    IMAGE_KIND,
+    IMAGE_AFTER_END,
+    IMAGE_NO_END
+};
+
+/* The same of a file's bytes, which end in a NUL and are changed. `line`: the one that is wrong, from 1; 0: none. */
+enum image_fault image_rom_of(const char *path, char *bytes, size_t length, uint8_t *rom, bool *given, size_t rom_size,
+                              int *line);
 
 #ifdef SKG80_BUILT_IN_ROM
 extern const uint8_t skg80_rom[]; /* roms/skg.bin, and its names; by rom.S */

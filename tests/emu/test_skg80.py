@@ -19,7 +19,10 @@ from asm8080 import assemble
 from emuhelp import ROM_SIZE, ROMS, ROOT, SKG80, Skg80, complaint, without_sign_on
 from facthelp import says
 
+from skg.errors import UserError
 from skg.machine import Machine, symbols
+from skg.machine.emulator import read_rom
+from skg.messages.render import Speech, line
 
 Part = Callable[[str], Path]
 
@@ -415,11 +418,15 @@ BAD_HEX = [
 
 @pytest.mark.parametrize(("text", "facts"), BAD_HEX)
 def test_bad_hex_image(skg80: Skg80, tmp_path: Path, text: str, facts: list[str]) -> None:
-    """Exit 2, the line and what is wrong with it."""
+    """Exit 2, the line and what is wrong with it; the finding of `skg` is the same."""
     path = tmp_path / "rom.hex"
     path.write_text(text)
     where, *what = facts
-    assert says(complaint(skg80("--rom", path), 2), f"{path}{where}", *what)
+    wrong = complaint(skg80("--rom", path), 2)
+    assert says(wrong, f"{path}{where}", *what)
+    with pytest.raises(UserError) as caught:
+        read_rom(str(path))
+    assert wrong.removeprefix("skg80: ").strip() == line(caught.value.finding, Speech("en"))
 
 
 @pytest.mark.parametrize("size", [0, 1, ROM_SIZE - 1, ROM_SIZE + 1])

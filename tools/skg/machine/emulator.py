@@ -64,6 +64,21 @@ class _Job(ctypes.Structure):
     ]
 
 
+#: The faults of an image, in the order of enum image_fault (emu/image.h).
+_IMAGE_FAULTS = (
+    "image-length",
+    "image-no-text",
+    "image-no-record",
+    "image-record-length",
+    "image-checksum",
+    "image-past-rom",
+    "image-past-ffff",
+    "image-kind",
+    "image-after-end",
+    "image-no-end",
+)
+
+
 def read_rom(path: str) -> tuple[bytes, list[int]]:
     """The 8,192 bytes of an image, .bin or Intel .hex, and the addresses that it leaves out.
 
@@ -76,10 +91,12 @@ def read_rom(path: str) -> tuple[bytes, list[int]]:
         raise UserError(of_system(error).within(path)) from None
     if len(data) > _ROM_FILE:
         raise UserError(Finding("rom-too-large", most=_ROM_FILE).within(path))
-    rom, given, error = (ctypes.create_string_buffer(size) for size in (ROM_SIZE, ROM_SIZE, 512))
-    text = ctypes.create_string_buffer(data)
-    if _library().image_rom_of(os.fsencode(path), text, len(data), rom, given, ROM_SIZE, error, len(error)):
-        raise UserError(Finding("emulator", detail=os.fsdecode(error.value)))
+    rom, given = (ctypes.create_string_buffer(ROM_SIZE) for _ in range(2))
+    text, line = ctypes.create_string_buffer(data), ctypes.c_int()
+    if fault := _library().image_rom_of(os.fsencode(path), text, len(data), rom, given, ROM_SIZE, line):
+        values = {"length": len(data), "expected": ROM_SIZE} if fault == 1 else {}
+        place = f"{path}:{line.value}" if line.value else path
+        raise UserError(Finding(_IMAGE_FAULTS[fault - 1], **values).within(place))
     return rom.raw, [address for address, is_given in enumerate(given.raw) if not is_given]
 
 
@@ -135,7 +152,7 @@ def _library() -> ctypes.CDLL:
         "board_reader": (None, [pointer, flag]),
         "image_rom_of": (
             ctypes.c_int,
-            [ctypes.c_char_p, ctypes.c_char_p, size, ctypes.c_char_p, ctypes.c_char_p, size, ctypes.c_char_p, size],
+            [*[ctypes.c_char_p] * 2, size, *[ctypes.c_char_p] * 2, size, ctypes.POINTER(ctypes.c_int)],
         ),
         "machine_nobody": (ctypes.c_uint8, [pointer, ctypes.POINTER(flag)]),
         "board_reader_silence": (ctypes.c_uint64, [pointer]),
