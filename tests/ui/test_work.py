@@ -160,6 +160,21 @@ def test_large_drawing_is_told_of_before_its_plan(
     assert page.call("PUT", "/api/job", body).status == 409
 
 
+def test_thin_wall_is_told_of_before_the_cut(page: Page, tmp_path: Path) -> None:
+    """Its line is that of the cut: who has decided on it is not asked again."""
+    path = plate(tmp_path)
+    document = ezdxf.readfile(path)
+    document.modelspace().add_circle((27.3, 15), 6, dxfattribs={"layer": "HOLES"})
+    document.saveas(path)
+    state = page.open(path)
+    assert not [said for said in state["plan"]["said"] if said["code"] == "thin-wall"]
+    put = page.put(state, machine={"wire": 0.2})
+    (wall,) = [said for said in put["plan"]["said"] if said["code"] == "thin-wall"]
+    assert wall["care"] and wall["place"] == pytest.approx([21.15, 15], abs=0.01) and wall["contour"] in (1, 3)
+    _, run = page.cut(put["rev"])
+    assert [said for said in run["result"]["lines"] if said["code"] == "thin-wall"] == [wall]
+
+
 def test_errors_of_a_contour(page: Page, tmp_path: Path) -> None:
     """An error in one contour is reported with its number, and the others are planned all the same."""
     state = page.open(plate(tmp_path))

@@ -984,6 +984,22 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await context.close();
   });
 
+  test("a thin wall wants a decision before Cut, and once", async () => {
+    const { url } = await start("wall.dxf", dxf(...box(0, 0, 60, 40), circle(15, 20, 5), circle(25.3, 20, 5)));
+    const { page, context } = await visit(url, { viewport: LOW });
+    await drawn(page);
+    await type(page, "field-wire", "0.2");
+    await settled(page);
+    await page.waitForSelector("#decide.care");
+    await says(page, "#decide-text", /0\.3 mm thin/);
+    await page.getByRole("button", { name: "Leave this contour" }).waitFor();
+    await page.getByRole("button", { name: "As it is" }).click();
+    await page.waitForSelector("#decide", { state: "hidden" });
+    await cut(page);
+    await page.waitForSelector("#outcome.good");
+    await context.close();
+  });
+
   test("20,000 circles: open, panned, chosen; a frame costs no more than one of 2,000", async (t) => {
     const costs: number[] = [];
     for (const count of [MANY / 10, MANY]) {

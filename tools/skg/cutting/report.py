@@ -13,11 +13,10 @@ from skg.cutting.manner import manners, numbered, stops
 from skg.cutting.refusal import depth
 from skg.job.job import MachineSetup
 from skg.messages.finding import Finding, Phrase
-from skg.planning import nesting
+from skg.planning import nesting, walls
 from skg.planning.nesting import in_brackets
 from skg.planning.planned import LeadShape, PlannedContour, Reason, kind_of
 from skg.planning.room import corners
-from skg.planning.walls import thin_walls
 from skg.tape.simulation import duration
 
 #: Places that a line of the report names before it says how many more there are.
@@ -43,7 +42,7 @@ def findings(result: CutResult, offset: float = 0.0) -> list[Finding]:
         *nesting.findings((route.turn, route.remarks.around) for route in routes),
         *_corners(routes),
         *_crossings(result),
-        *_walls(routes),
+        *walls.findings(routes),
     ]
 
 
@@ -97,15 +96,6 @@ def _crossings(result: CutResult) -> Iterator[Finding]:
             for gouge in more[:_PAIRS]
         )
         yield Finding("more-gouges", count=len(more), pairs=tuple(pairs), rest=" …" * (len(more) > _PAIRS))
-
-
-def _walls(routes: list[PlannedContour]) -> Iterator[Finding]:
-    """Walls that are thinner than what the cuts beside them take."""
-    walls = thin_walls(routes)
-    for wall in walls[:_PLACES]:
-        turns = {"turn": wall.first.turn, "other": wall.second.turn, "wide": wall.thick, "kerf": wall.kerfs}
-        yield Finding("thin-wall", contour=wall.first.number, place=wall.place, **turns)
-    yield from _more(walls, "more-thin-walls")
 
 
 def _manners(routes: list[PlannedContour], offset: float) -> Iterator[Finding]:

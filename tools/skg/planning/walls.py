@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
 import shapely
 
+from skg.geometry.arrays import Whole
 from skg.geometry.contour import Edge
+from skg.geometry.edge_arrays import boxes_of
 from skg.geometry.plane import XY
+from skg.messages.finding import Finding
 from skg.planning.planned import PlannedContour
 
 #: Chords leave a contour by no more when a wall is measured, mm; and when walls are looked for.
 _FINE, _COARSE = 0.0002, 0.1
 #: No wire takes more than this to its middle, mm: what does is a cutter, whose walls are another matter.
 _WIRE = 0.5
+#: Walls that have a line of the report each.
+_PLACES = 5
 
 
 class Wall(NamedTuple):
@@ -35,13 +40,15 @@ def thin_walls(routes: Sequence[PlannedContour]) -> list[Wall]:
     if len(closed) < 2:
         return []
     kerfs = np.array([2 * abs(route.passes[-1]) for route in closed])
-    rings = np.array([shapely.linearrings(_ring(route, None)) for route in closed])
-    reach = 2 * kerfs.max() + _COARSE
-    ones, others = shapely.STRtree(rings).query(rings, predicate="dwithin", distance=reach)
-    is_pair = ones < others
-    ones, others = ones[is_pair], others[is_pair]
-    is_wall = [_is_wall(closed[one], closed[other]) for one, other in zip(ones.tolist(), others.tolist(), strict=True)]
-    ones, others = ones[is_wall], others[is_wall]
+    boxes, _ = boxes_of([route.contour for route in closed])
+    # (most contours of many lie far from all others)
+    rows = [shapely.box(*(boxes + sign * kerfs.max() * np.array([-1, -1, 1, 1])).T) for sign in (0, 2)]
+    ones, others = _pairs(closed, *shapely.STRtree(rows[0]).query(rows[1]))
+    rings = np.full(len(closed), None, object)
+    for number in np.unique([*ones, *others]).tolist():
+        rings[number] = shapely.linearrings(_ring(closed[number], None))
+    is_near = shapely.dwithin(rings[ones], rings[others], 2 * kerfs.max() + _COARSE)
+    ones, others = ones[is_near], others[is_near]
     for number in np.unique([*ones, *others]).tolist():
         rings[number] = shapely.linearrings(_ring(closed[number], _FINE))
     thick = shapely.distance(rings[ones], rings[others])
@@ -54,6 +61,28 @@ def thin_walls(routes: Sequence[PlannedContour]) -> list[Wall]:
         (x, y), (u, v) = shapely.get_coordinates(shapely.shortest_line(rings[one], rings[other])).tolist()
         walls.append(Wall(closed[one], closed[other], wide, taken, ((x + u) / 2, (y + v) / 2)))
     return sorted(walls, key=lambda wall: wall.thick)
+
+
+def findings(routes: Sequence[PlannedContour]) -> Iterator[Finding]:
+    """Report the walls that are thinner than what the cuts beside them take."""
+    walls = thin_walls(routes)
+    for wall in walls[:_PLACES]:
+        turns = {"turn": wall.first.turn, "other": wall.second.turn, "wide": wall.thick, "kerf": wall.kerfs}
+        yield Finding("thin-wall", contour=wall.first.number, place=wall.place, **turns)
+    if (more := len(walls) - _PLACES) > 0:
+        yield Finding("more-thin-walls", count=more)
+
+
+def _pairs(closed: Sequence[PlannedContour], ones: Whole, others: Whole) -> tuple[Whole, Whole]:
+    """Those pairs of contours, by their numbers, that have a wall between them, each once."""
+    is_pair = ones < others
+    ones, others = ones[is_pair], others[is_pair]
+    is_wall = np.fromiter(
+        (_is_wall(closed[one], closed[other]) for one, other in zip(ones.tolist(), others.tolist(), strict=True)),
+        bool,
+        len(ones),
+    )
+    return ones[is_wall], others[is_wall]
 
 
 def _ring(route: PlannedContour, off: float | None) -> list[XY]:

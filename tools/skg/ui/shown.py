@@ -26,6 +26,7 @@ from skg.messages.render import Medium, Speech, text
 from skg.messages.severity import Severity
 from skg.pipeline.placing import as_drawn
 from skg.pipeline.steps import CutDrawing, DrawnJob
+from skg.planning import walls
 from skg.planning.copies import Pattern
 from skg.planning.nesting import findings
 from skg.planning.planned import PlannedContour
@@ -188,7 +189,10 @@ class Plans:
             "order": [route.number for route in routes],
             "said": [
                 line(as_drawn(entry, placement))
-                for entry in findings((route.turn, route.remarks.around) for route in routes)
+                for entry in (
+                    *findings((route.turn, route.remarks.around) for route in routes),
+                    *walls.findings(routes),
+                )
             ],
             "error": told(errors[0]) if errors else None,
             "lying": in_json(lying(placement, pattern)),

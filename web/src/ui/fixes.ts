@@ -108,7 +108,9 @@ export function fixesOf(desk: Desk, line: Told): Fix[] {
     return setting === "side" ? [{ label, act: () => wish({ side: value as Change["side"] }) }] : [];
   });
   if (code !== undefined && OF_ENDS.has(code)) fixes.unshift(...repairs(desk, line));
-  if (!wrong || id === undefined || !desk.contours.has(id)) return fixes;
+  if (id === undefined || !desk.contours.has(id)) return fixes;
+  if (code === "thin-wall") fixes.push(...fieldOf(desk, "offset", id));
+  else if (!wrong) return fixes;
   const isOfRoom = advice.some(([setting]) => setting === "offset" || setting === "small" || setting === "into");
   if (isOfRoom) fixes.push({ label: w("fixOnLine"), act: () => wish({ side: "on" }) });
   return [...fixes, { label: w("fixLeave"), act: () => wish({ cut: false }) }];
