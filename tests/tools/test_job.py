@@ -229,7 +229,7 @@ EXAMPLES = [
     for example in EXAMPLE.finditer((DOCS / name).read_text())
     if (words := shlex.split(example["command"]))[:2] == ["skg", "cut"]
     and words[2].startswith("docs/")
-    and not {"|", "4.2", "--list-layers"} & set(words)
+    and not {"|", "4.2", "--list-layers", "--clearance"} & set(words)
 ]
 #: Other options than those of the pages.
 MORE = [

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import codecs
 import json
+import re
 import sys
 from collections.abc import Callable, Iterable
+from contextlib import ExitStack
 from os.path import realpath
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 from click.core import ParameterSource
@@ -30,7 +32,7 @@ from skg.commands.options import (
     unmarked,
 )
 from skg.errors import UserError
-from skg.files import read_bytes, write_bytes
+from skg.files import binary_output, read_bytes, write_bytes
 from skg.geometry.plane import XY
 from skg.job import file as job_files
 from skg.job import values
@@ -38,7 +40,7 @@ from skg.job.job import INTO, ROMS, SMALL, Job
 from skg.job.placing import MIRRORS
 from skg.job.read_options import OPEN, START, UNITS
 from skg.job.values import MOST_OFFSET
-from skg.job.wanted import LEAD, LEAD_SHAPES, SIDES
+from skg.job.wanted import CLEARANCE_ON, LEAD, LEAD_SHAPES, SIDES
 from skg.messages.finding import Finding, Phrase
 from skg.messages.render import Medium, Speech, data, line, speech
 from skg.reading.read import Wishes, layer_lines
@@ -195,6 +197,17 @@ _BESIDE_A_JOB = (
     type=FiniteRange(1 / values.MOST_SCALE, values.MOST_SCALE),
     help="Cut the part so many times as large as it is drawn; the report says so. Wire, leads and tabs stay.",
 )
+@click.option(
+    "--clearance",
+    type=Millimetres(0, MOST_OFFSET),
+    help="Cut a punch and its die, two tapes, NAME-punch and NAME-die, with this between them on each side.",
+)
+@click.option(
+    "--clearance-on",
+    default="punch",
+    type=click.Choice(CLEARANCE_ON),
+    help="Which of both takes the clearance: the punch is so much smaller, or the die larger; the other is to size.",
+)
 @click.option("--columns", default=1, metavar="N", type=click.IntRange(1), help="Cut so many copies beside each other.")
 @click.option("--rows", default=1, metavar="N", type=click.IntRange(1), help="Cut so many rows of copies.")
 @click.option("--step", type=COORDINATES, help="From one copy to the next, mm: to the right, and up.")
@@ -329,6 +342,8 @@ def command(
     followed with the controller's simulation and compared with the drawing before it is written. The report goes to
     standard error. FILE - is the standard input.
     """
+    from skg.pipeline.pairing import named
+
     way = Speech(speech.language, Medium.JOB if is_job_file(file) else Medium.COMMAND)
     try:
         report = _cut(context, file, output, list_layers, program, sheet, holes, setup, save_job, dialect, **options)
@@ -340,13 +355,14 @@ def command(
         sys.exit(2)
     if report is None:
         return
-    cut, more = report
     if in_json:
-        click.echo(json.dumps(_in_json(cut, more, way)), err=True)
+        told = {cut.member: _in_json(cut, more, way) for cut, more in report}
+        click.echo(json.dumps(told.get("", told)), err=True)
         return
-    for finding in (*cut.findings, *more):
-        if finding.severity.is_kept or not quiet:
-            tell(line(finding, way))
+    for cut, more in report:
+        for finding in (*cut.findings, *more):
+            if finding.severity.is_kept or not quiet:
+                tell(line(finding.within(named(cut.member)) if cut.member else finding, way))
 
 
 def _in_json(cut: CutDrawing, more: list[Finding], way: Speech) -> dict[str, object]:
@@ -376,12 +392,13 @@ def _cut(
     save_job: str | None,
     dialect: GcodeDialect | None,
     **options: Any,  # noqa: ANN401
-) -> tuple[CutDrawing, list[Finding]] | None:
-    """Cut the drawing and write the files: the result, and what there is to say of the tape's name; None: its layers
+) -> list[tuple[CutDrawing, list[Finding]]] | None:
+    """Cut the drawing and write the files: each result, and what there is to say of the tape's name; None: its layers
     were listed."""
     from skg.cutting import holes as holes_files
+    from skg.pipeline.pairing import named
     from skg.pipeline.placing import told_as_drawn
-    from skg.pipeline.steps import cut_drawing, open_drawing, written
+    from skg.pipeline.steps import cut_all, open_drawing, written
 
     kept = kept_setups().kept(setup) if setup is not None else {}
     if is_job_file(file):
@@ -408,29 +425,76 @@ def _cut(
     if save_job:
         _refuse_elsewhere(save_job, path)
     drawn = open_drawing(job, read_bytes(path), path)
-    cut = cut_drawing(job, drawn)
-    with told_as_drawn(cut.placement):
-        made = _for_machine(cut.result, dialect, output) if dialect else to_style(cut.result.tape.items, job.tape.style)
-    routes, thick = cut.result.routes, job.machine.thickness
-    bored = holes_files.holes_file(routes, thick, holes) if holes else b""
-    if program:
-        write_bytes(program, cut.result.program.encode("ascii"))
-    if holes:
-        write_bytes(holes, bored)
+    cuts = cut_all(job, drawn)
+    names = [_Names(output, program, sheet, holes).of(cut.member, job.tape.short_name) for cut in cuts]
+    if len(cuts) > 1:
+        refuse_onto([name for each in names for name in each if name], [path, file, *filter(None, [save_job])])
+    thick, tapes, others = job.machine.thickness, [], []
+    for cut, name in zip(cuts, names, strict=True):
+        if not dialect and name.output != "-":
+            job.tape.refuse_name(Path(name.output).name)
+        with told_as_drawn(cut.placement):
+            items = cut.result.tape.items
+            made = _for_machine(cut.result, dialect, name.output) if dialect else to_style(items, job.tape.style)
+        tapes.append((name.output, made))
+        if name.program:
+            others.append((name.program, cut.result.program.encode("ascii")))
+        if name.holes:
+            others.append((name.holes, holes_files.holes_file(cut.result.routes, thick, name.holes)))
+    for beside, content in others:
+        write_bytes(beside, content)
     if sheet:
         from skg.pictures.sheet import Facts, write_sheet
 
-        tape = Path(output).name if output != "-" else "-"
         drawing = Path(path).name if path != "-" else "-"
-        facts = Facts(drawing, tape, cut.account.units, job.place.scale, tuple(cut.cost.figures()))
-        write_sheet(cut.result, facts, sheet, form)
+        for cut, name in zip(cuts, names, strict=True):
+            if not name.sheet:
+                continue
+            tape = Path(name.output).name if name.output != "-" else "-"
+            whose = f"{drawing}: {named(cut.member)}" if cut.member else drawing
+            facts = Facts(whose, tape, cut.account.units, job.place.scale, tuple(cut.cost.figures()))
+            write_sheet(cut.result, facts, name.sheet, form)
     if save_job:
         write_bytes(save_job, job_files.encoded(written(job, drawn)))
-    write_bytes(output, made)  # last: no tape where something else could not be written
-    more = unmarked(output, cut.result.tape, job.machine.rom) if dialect is None else []
-    if holes:
-        more = [*holes_files.findings(routes, thick, holes), *more]
-    return cut, [*_used(setup, kept, job), *more] if setup is not None else more
+    # (last: no tape where something else, or another tape, could not be written)
+    with ExitStack() as stack:
+        for stream, made in [(stack.enter_context(binary_output(name)), made) for name, made in tapes]:
+            stream.write(made)
+    result: list[tuple[CutDrawing, list[Finding]]] = []
+    for cut, name in zip(cuts, names, strict=True):
+        more = unmarked(name.output, cut.result.tape, job.machine.rom) if dialect is None else []
+        if name.holes:
+            more = [*holes_files.findings(cut.result.routes, thick, name.holes), *more]
+        result.append((cut, [*_used(setup, kept, job), *more] if setup is not None and not result else more))
+    return result
+
+
+class _Names(NamedTuple):
+    """Files to be written."""
+
+    output: str
+    program: str | None
+    sheet: str | None
+    holes: str | None
+
+    def of(self, member: str, is_short: bool) -> _Names:
+        """Those of a punch, or of a die: NAME-punch; with a tape of a short name NAME-P. What is no file stays."""
+        if not member:
+            return self
+        if "-" in self:
+            raise UserError(Finding("pair-on-stdout"))
+        ending = f"-{member[0].upper() if is_short else member}"
+        others = (name and _of_member(name, ending) for name in (self.program, self.sheet, self.holes))
+        return _Names(_of_member(self.output, ending), *others)
+
+
+def _of_member(name: str, ending: str) -> str:
+    path = Path(name)
+    if path.exists() and not path.is_file():
+        return name
+    name, rest = path.name, re.search(r"(\.nodrift)?(\.\w+)?$", path.name)
+    at = rest.start() if rest and rest.start() else len(name)
+    return str(path.with_name(name[:at] + ending + name[at:]))
 
 
 def _for_machine(result: CutResult, dialect: GcodeDialect, output: str) -> bytes:

@@ -19,7 +19,7 @@ from skg.job import values
 from skg.job.job import INTO, KINDS, ROMS, SMALL, Chosen, Job, MachineSetup, Price, TapeForm
 from skg.job.placing import MIRRORS, Copies, Place
 from skg.job.read_options import OPEN, UNITS, Wishes
-from skg.job.wanted import LEAD_SHAPES, SIDES, Partial
+from skg.job.wanted import CLEARANCE_ON, LEAD_SHAPES, SIDES, Partial
 from skg.messages.finding import Finding
 from skg.tape.styles import STYLES
 
@@ -81,6 +81,8 @@ _DEFAULT: dict[str, values.Check] = {
     "lead": values.number(0.0, is_open=True),
     "lead_shape": values.choice(LEAD_SHAPES),
     "reverse": values.flag,
+    "clearance": values.number(0.0, values.MOST_OFFSET),
+    "clearance_on": values.choice(CLEARANCE_ON),
 }
 _OFTEN = _DEFAULT | {"offset": values.number(0.0, values.MOST_OFFSET)}
 _LAYER = {"name": values.name} | _OFTEN

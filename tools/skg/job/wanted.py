@@ -9,6 +9,8 @@ from typing import Any
 SIDES = ("auto", "inside", "outside", "left", "right", "on")
 #: The way from a start hole to the contour.
 LEAD_SHAPES = ("perpendicular", "arc")
+#: Which of both takes the clearance between a punch and its die.
+CLEARANCE_ON = ("punch", "die")
 #: A start hole is this far from the contour where there is room, mm.
 LEAD = 3.0
 
@@ -24,7 +26,8 @@ class Wanted:
     behind one that leaves as much as the first pass, mm. `overlap`: the cut goes on past its start by this, mm.
     `lead`: from a chosen start hole to the contour, mm; `lead_shape`: one of `LEAD_SHAPES`. `start`: the start hole,
     mm, None: chosen. `entry`: the contour is entered there, mm, None: chosen. `order`: its place in the order of
-    cutting, from 1, None: chosen.
+    cutting, from 1, None: chosen. `clearance`: between a punch and its die, on each side, mm, None: it is no such
+    contour; `clearance_on`: which of both takes it.
     """
 
     cut: bool = True
@@ -42,6 +45,8 @@ class Wanted:
     start: tuple[float, float] | None = None
     entry: tuple[float, float] | None = None
     order: int | None = None
+    clearance: float | None = None
+    clearance_on: str = "punch"
 
     @property
     def is_arc(self) -> bool:
@@ -73,6 +78,8 @@ class Partial:
     start: tuple[float, float] | None = None
     entry: tuple[float, float] | None = None
     order: int | None = None
+    clearance: float | None = None
+    clearance_on: str | None = None
 
     def said(self) -> dict[str, Any]:
         """The fields that are set, by name."""

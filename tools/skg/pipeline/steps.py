@@ -30,7 +30,7 @@ from skg.job.read_options import Wishes
 from skg.job.values import LEAST_FIT
 from skg.job.wanted import Partial, Wanted
 from skg.messages.finding import Finding, Phrase
-from skg.pipeline import placing
+from skg.pipeline import pairing, placing
 from skg.planning.copies import Pattern, refuse_near
 from skg.planning.nesting import Nesting
 from skg.planning.plan import Asked, plan_nested
@@ -44,7 +44,7 @@ from skg.reading.selection import SMALL, UNWANTED, WITHIN
 class DrawnJob:
     """A job's drawing, read, with what lies in what, and where the contours that the job has settings for are.
 
-    `name`: what messages call it.
+    `name`: what messages call it. `member`: which of a pair is cut of it, see `skg.pipeline.pairing`; "": the part.
     """
 
     name: str
@@ -53,6 +53,7 @@ class DrawnJob:
     nesting: Nesting
     known: Known
     matches: Matches
+    member: str = ""
     #: The nesting as it lies on the machine, where that was asked for last.
     _placed: dict[tuple, Nesting] = field(default_factory=dict, compare=False)
 
@@ -123,13 +124,14 @@ def _moved(chosen: Chosen, by: XY) -> Chosen:
 @dataclass(frozen=True)
 class CutDrawing:
     """A checked tape with its report, and its cost. `account`: that of the drawing, with what was left out among what
-    is not cut; `placement`: where the drawing lies on the machine."""
+    is not cut; `placement`: where the drawing lies on the machine; `member`: which of a pair it is, if of one."""
 
     result: CutResult
     account: Account
     cost: Cost
     findings: list[Finding]
     placement: Placement = Placement()
+    member: str = ""
 
 
 def open_drawing(job: Job, data: bytes, name: str = "") -> DrawnJob:
@@ -154,14 +156,22 @@ def wanted_of(job: Job, drawn: DrawnJob) -> list[Wanted]:
     wanted = [layers[contour.layers] for contour in drawn.contours]
     for number, chosen in drawn.chosen(job).items():
         wanted[number] = job.of(drawn.contours[number].layers, chosen)
-    return wanted
+    return pairing.pair_wanted(wanted, drawn.nesting, drawn.member) if drawn.member else wanted
+
+
+def members_of(job: Job, drawn: DrawnJob) -> list[DrawnJob]:
+    """The drawing as the part, or once as the punch and once as the die."""
+    with placing.told_as_drawn(Placement(), drawn.name):
+        return [replace(drawn, member=member) for member in pairing.members(wanted_of(job, drawn), drawn.nesting)]
 
 
 def plan_drawing(job: Job, drawn: DrawnJob) -> list[PlannedContour]:
     """The contours in the order in which they are cut. A contour that is lost, or that cannot be planned, is a
     `UserError`."""
     refuse_lost(job, drawn)
-    return plan_placed(job, drawn, wanted_of(job, drawn))
+    with placing.told_as_drawn(Placement(), drawn.name):
+        wanted = wanted_of(job, drawn)
+    return plan_placed(job, drawn, wanted)
 
 
 def plan_placed(
@@ -184,7 +194,10 @@ def plan_placed(
 
 def starts_of(job: Job, drawn: DrawnJob) -> list[XY]:
     """The start holes, where the drawing is now."""
-    return [shifted(start, drawn.matches.shift) for start in job.starts] or drawn.reading.starts
+    starts = [shifted(start, drawn.matches.shift) for start in job.starts] or drawn.reading.starts
+    if not drawn.member:
+        return starts
+    return pairing.pair_starts(starts, wanted_of(job, replace(drawn, member="")), drawn.nesting, drawn.member)
 
 
 def refuse_lost(job: Job, drawn: DrawnJob) -> None:
@@ -194,6 +207,17 @@ def refuse_lost(job: Job, drawn: DrawnJob) -> None:
         more = Phrase("nor-others", count=len(lost) - 1) if len(lost) > 1 else None
         finding = Finding("contour-lost", index=index + 1, name=job.contours[index].name, more=more)
         raise UserError(finding.within(drawn.name))
+
+
+def cut_all(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> list[CutDrawing]:
+    """Make the tape, or that of a punch and that of its die; nothing is returned where one of both is refused."""
+    cuts = []
+    for each in members_of(job, drawn):
+        try:
+            cuts.append(cut_drawing(job, each, progress))
+        except UserError as error:
+            raise (error.within(pairing.named(each.member)) if each.member else error) from None
+    return cuts
 
 
 def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> CutDrawing:
@@ -206,12 +230,15 @@ def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> C
         pattern = drawn.pattern(job)
         result = make(routes, job.drawing, job.machine, progress, pattern)
     left = {number: UNWANTED for number, want in enumerate(wanted_of(job, drawn)) if not want.cut}
+    if drawn.member:
+        others = enumerate(wanted_of(job, replace(drawn, member="")))
+        left |= {number: pairing.OTHER for number, want in others if want.cut and number in left}
     left |= {contour.number: WITHIN if contour.is_within else SMALL for contour in result.left}
     account = drawn.reading.account(left) if left else drawn.reading.report
     result = _beside_file(result, job, drawn, account, placement)
     cost = Cost.of(result, job.price)
     report = [*_findings(job, drawn, account, result, placement, pattern), *cost.findings()]
-    return CutDrawing(result, account, cost, report, placement)
+    return CutDrawing(result, account, cost, report, placement, drawn.member)
 
 
 def _beside_file(result: CutResult, job: Job, drawn: DrawnJob, account: Account, placement: Placement) -> CutResult:
@@ -263,7 +290,10 @@ def _findings(
         from skg.checking import split_parts
 
         report += [placing.as_drawn(finding, placement) for finding in split_parts.findings(result.routes)]
-    return report
+    if not drawn.member:
+        return report
+    whole = replace(drawn, member="")
+    return pairing.pair_findings(wanted_of(job, whole), drawn.nesting, drawn.member, report)
 
 
 def _matched(job: Job, drawn: DrawnJob) -> list[Finding]:

@@ -1,0 +1,119 @@
+"""A punch and its die from one contour: which contours are cut for each, on which side, and who takes the clearance."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from skg.errors import UserError
+from skg.geometry.plane import XY
+from skg.job.wanted import Wanted
+from skg.messages.finding import Finding, Phrase
+from skg.planning.nesting import Nesting
+
+PUNCH, DIE = "punch", "die"
+#: Why a contour is not cut for one of both.
+OTHER = Phrase("reason-other-of-pair")
+#: Findings on sides and tabs that a punch, or a die, has on purpose.
+_MEANT = {
+    PUNCH: {"side-of-openings", "side-of-outlines", "no-slug-has-tab"},
+    DIE: {"side-of-openings", "side-of-outlines", "no-part-has-tab"},
+}
+
+
+def named(member: str) -> Phrase:
+    """The name of one of both, before a message on it."""
+    return Phrase("member-punch" if member == PUNCH else "member-die")
+
+
+def members(wanted: Sequence[Wanted], nesting: Nesting) -> tuple[str, ...]:
+    """What is cut of a drawing: a punch and its die, where a closed contour has a clearance; else "", the part. A
+    clearance without such a contour is a `UserError`."""
+    asked = [number for number, want in enumerate(wanted) if want.cut and want.clearance is not None]
+    if not asked:
+        return ("",)
+    if not any(nesting.contours[number].is_closed for number in asked):
+        raise UserError(Finding("clearance-of-open"))
+    return PUNCH, DIE
+
+
+def pair_wanted(wanted: Sequence[Wanted], nesting: Nesting, member: str) -> list[Wanted]:
+    """Wishes for the punch or for the die.
+
+    A contour with a clearance that lies in no other such contour is cut outside for the punch, inside for the die. What
+    lies in it goes with the punch, all else with the die.
+    """
+    mates, around = _mates(wanted, nesting)
+    result = []
+    for number, want in enumerate(wanted):
+        within = [outer for outer in around[number] if outer != number]
+        mate = number if number in mates else next((outer for outer in within if outer in mates), None)
+        if not want.cut or (mate is None or mate != number) and (mate is None) == (member == PUNCH):
+            result.append(replace(want, cut=False))
+        elif mate == number:
+            result.append(_mated(number, want, nesting, member))
+        elif mate is not None and want.side == "auto" and nesting.contours[number].is_closed:
+            # (how deep it lies in the punch, whatever this lies in)
+            depth = sum(outer == mate or mate in around[outer] for outer in within)
+            result.append(replace(want, side="inside" if depth % 2 else "outside"))
+        else:
+            result.append(want)
+    return result
+
+
+def pair_starts(starts: Sequence[XY], wanted: Sequence[Wanted], nesting: Nesting, member: str) -> list[XY]:
+    """The start holes of one of both. Those in a contour of the pair are the die's, those in what lies in it the
+    punch's; so are those beside it, but in openings of a plate that it lies in, and outside of this."""
+    mates, _ = _mates(wanted, nesting)
+    depths = nesting.depths
+    has_plate = any(depths[number] for number in mates)
+    result = []
+    for start, holders in zip(starts, nesting.holding.around(starts), strict=True):
+        inner = max(holders, key=depths.__getitem__, default=None)
+        if inner is None:
+            is_of_die = has_plate
+        else:
+            is_of_die = inner in mates or not mates & set(holders) and depths[inner] % 2 == 1
+        if is_of_die == (member == DIE):
+            result.append(start)
+    return result
+
+
+def pair_findings(wanted: Sequence[Wanted], nesting: Nesting, member: str, report: list[Finding]) -> list[Finding]:
+    """The report on one of both: begun with what it is, without what is meant so. `wanted`: wishes for the part."""
+    mates, _ = _mates(wanted, nesting)
+    sizes = dict.fromkeys(_size(wanted[number], member) for number in sorted(mates))
+    first = Finding("pair-punch" if member == PUNCH else "pair-die", sizes=tuple(sizes))
+    return [first, *(finding for finding in report if finding.code not in _MEANT[member])]
+
+
+def _size(want: Wanted, member: str) -> Phrase:
+    if want.clearance_on != member or not want.clearance:
+        return Phrase("pair-to-size")
+    return Phrase("pair-smaller" if member == PUNCH else "pair-larger", clearance=want.clearance)
+
+
+def _mates(wanted: Sequence[Wanted], nesting: Nesting) -> tuple[set[int], list[list[int]]]:
+    """The contours that punch and die share, and the closed contours around each contour, by their numbers."""
+    around = nesting.holding.around([contour.edges[0].at(0.5) for contour in nesting.contours])
+    asked = {
+        number
+        for number, want in enumerate(wanted)
+        if want.cut and want.clearance is not None and nesting.contours[number].is_closed
+    }
+    return {number for number in asked if not asked & set(around[number]) - {number}}, around
+
+
+def _mated(number: int, want: Wanted, nesting: Nesting, member: str) -> Wanted:
+    """Wishes for a contour that both share."""
+    contour = nesting.contours[number]
+    offset = want.offset
+    if want.clearance and want.clearance_on == member:
+        if want.clearance >= offset:
+            about = {"contour": number, "place": contour.edges[0].start}
+            raise UserError(Finding("clearance-too-large", clearance=want.clearance, offset=offset, **about))
+        offset -= want.clearance
+    start = want.start
+    if start is not None and (number in nesting.holding.around([start])[0]) != (member == DIE):
+        start = None
+    return replace(want, side="outside" if member == PUNCH else "inside", offset=offset, start=start)
