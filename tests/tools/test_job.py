@@ -21,7 +21,7 @@ from skg.errors import UserError
 from skg.job.file import decoded, dump, encoded, from_data, load, to_data
 from skg.job.job import INTO, KINDS, ROMS, SMALL, Chosen, Job, MachineSetup, Price, TapeForm
 from skg.job.read_options import OPEN, UNITS, Wishes
-from skg.job.wanted import LEAD_SHAPES, SIDES, Partial, Wanted
+from skg.job.wanted import CLEARANCE_ON, LEAD_SHAPES, SIDES, Partial, Wanted
 from skg.messages.render import text
 from skg.pipeline.steps import choose, cut_drawing, open_drawing, plan_drawing, wanted_of, written
 from skg.tape.styles import STYLES
@@ -51,6 +51,8 @@ OFTEN = {
     "overlap": maybe(LENGTHS),
     "lead": maybe(st.floats(1e-3, 1000)),
     "lead_shape": maybe(st.sampled_from(LEAD_SHAPES)),
+    "clearance": maybe(OFFSETS),
+    "clearance_on": maybe(st.sampled_from(CLEARANCE_ON)),
 }
 LAYER = OFTEN | {"offset": maybe(OFFSETS)}
 CONTOUR = {key: value for key, value in LAYER.items() if key != "slug_tab"} | {
@@ -271,7 +273,7 @@ def test_every_example_as_a_job(run: Run, tmp_path: Path, words: list[str]) -> N
 
 
 def test_examples_are_there() -> None:
-    assert len(EXAMPLES) >= 8
+    assert len(EXAMPLES) >= 7
 
 
 def test_settings_of_contours(run: Run, tmp_path: Path) -> None:
