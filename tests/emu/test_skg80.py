@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import random
 import re
+import shlex
 import signal
 import subprocess
 import sys
@@ -296,12 +297,12 @@ def test_standard_error_is_full(part: Part, options: list[str]) -> None:
 def test_closed_standard_streams(part: Part, tmp_path: Path) -> None:
     """A file that is opened never becomes a standard stream; without standard error the tape is whole."""
     tape, paper = tmp_path / "tape", tmp_path / "paper"
-    line = f"{SKG80} --tty {paper} {part(TWO_LINES + '30 END')} "
+    line = shlex.join(map(str, (SKG80, "--tty", paper, part(TWO_LINES + "30 END"))))
     done = subprocess.run(["sh", "-c", f"{line} >&-"], stderr=subprocess.PIPE)
     assert says(complaint(done, 2), "Bad file descriptor")
     assert b"\nB0B1000B1000GYL4" not in paper.read_bytes()
     for closed in ("2>&-", "<&-", "2>&- <&-"):
-        done = subprocess.run(["sh", "-c", f"{line} {closed} > {tape}"])
+        done = subprocess.run(["sh", "-c", f"{line} {closed} > {shlex.quote(str(tape))}"])
         assert (done.returncode, tape.read_bytes()) == (0, b"".join(BLOCKS) + STOPS), closed
 
 

@@ -28,7 +28,7 @@ RAM = 2, 56
 #: No place is farther from the origin, no length longer, mm: a tape ends there.
 FARTHEST = 100_000.0
 #: No price is higher, no rate faster.
-MOST_MONEY = 1e9
+MOST_MONEY = 99_999_999.0
 #: No text is longer.
 _LONGEST = 200
 
