@@ -175,6 +175,31 @@ def test_thin_wall_is_told_of_before_the_cut(page: Page, tmp_path: Path) -> None
     assert [said for said in run["result"]["lines"] if said["code"] == "thin-wall"] == [wall]
 
 
+def test_what_is_left_is_shown(page: Page, tmp_path: Path) -> None:
+    """Lines and texts of dimensions, the edge of a hatch, texts of SVG; none of them is cut."""
+    path = plate(tmp_path)
+    document = ezdxf.readfile(path)
+    space = document.modelspace()
+    space.add_linear_dim((30, 45), (0, 30), (60, 30), dxfattribs={"layer": "NOTES"}).render()
+    space.add_hatch(dxfattribs={"layer": "NOTES"}).paths.add_polyline_path([(2, 2), (8, 2), (8, 8)])
+    document.saveas(path)
+    state = page.open(path)
+    left = state["left"]
+    assert len(state["contours"]) == 3 and "60" in "".join(note["text"] for note in left["notes"])
+    lines = [{tuple(edge[:2]), tuple(edge[2:])} for edge in left["edges"] if len(edge) == 4]
+    assert all({end, after} in lines for end, after in (((2, 2), (8, 2)), ((8, 2), (8, 8)), ((8, 8), (2, 2))))
+    assert any(max(y for _, y in line) == pytest.approx(45) for line in lines)
+    path = tmp_path / "note.svg"
+    path.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="90mm" height="90mm" viewBox="0 0 90 90">'
+        '<rect x="5" y="5" width="50" height="40"/><g transform="translate(10 20)" style="font-size:6px">'
+        '<text x="1" y="2">Part <tspan>A1</tspan><tspan x="1" dy="7">second</tspan></text></g></svg>'
+    )
+    notes = page.open(path)["left"]["notes"]
+    assert [(note["text"], note["place"]) for note in notes] == [("Part A1", [11, 68]), ("second", [11, 61])]
+    assert notes[0]["up"] == [0, 4.2]
+
+
 def test_errors_of_a_contour(page: Page, tmp_path: Path) -> None:
     """An error in one contour is reported with its number, and the others are planned all the same."""
     state = page.open(plate(tmp_path))

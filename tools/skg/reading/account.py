@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -55,15 +55,32 @@ class Written:
 
 
 @dataclass
+class Noted:
+    """Lines of what is nothing to cut, for who looks at the drawing: of dimensions, and around what is filled. `edges`,
+    mm; `fills`: give more of them, which takes its time; `by`: how far all of it is moved."""
+
+    edges: list[Edge] = field(default_factory=list)
+    fills: list[Callable[[], Iterable[Edge]]] = field(default_factory=list)
+    by: XY = (0.0, 0.0)
+
+    def every(self) -> Iterator[Edge]:
+        """All of them."""
+        for edge in (*self.edges, *(edge for fill in self.fills for edge in fill())):
+            yield edge if self.by == (0.0, 0.0) else edge.shifted(self.by)
+
+
+@dataclass
 class Content:
     """The content of a file: its entities, their edges in mm (each with the number of its entity), start points in mm,
-    and what is to be said of them. `others`: the edges of what is left because of its layer; `written`: texts."""
+    and what is to be said of them. `others`: the edges of what is left because of its layer; `written`: texts; `noted`:
+    lines of what is nothing to cut."""
 
     entities: list[Entity] = field(default_factory=list)
     edges: list[Edge] = field(default_factory=list)
     others: list[Edge] = field(default_factory=list)
     starts: list[XY] = field(default_factory=list)
     written: list[Written] = field(default_factory=list)
+    noted: Noted = field(default_factory=Noted)
     notes: list[Finding] = field(default_factory=list)
 
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
+from itertools import pairwise
 from math import cos, pi, radians, sin, sqrt
 from types import ModuleType
 from typing import TYPE_CHECKING
@@ -46,6 +48,11 @@ _NO_LINES = {
     "REGION": Phrase("reason-acis"),
     **dict.fromkeys(("ACAD_PROXY_ENTITY", "PROXY"), Phrase("reason-proxy")),
 }
+#: Those of them that fill what is drawn, and that measure it: a block shows these.
+_FILLS = frozenset(("HATCH", "MPOLYGON"))
+_DIMENSIONS = frozenset(("DIMENSION", "ARC_DIMENSION", "LARGE_RADIAL_DIMENSION"))
+#: Chords around what is filled leave it by no more, mm.
+_COARSE = 0.05
 #: Blocks within blocks within blocks.
 _DEPTH = 32
 #: The planes beside x and y that a whole drawing may stand in, with what is seen there to the right and upwards.
@@ -129,8 +136,7 @@ class _Collector:
         account.left = hidden or self.unwanted(layer) or (Phrase("reason-invisible") if record.whole(60) else None)
         if not account.left and _is_note(record.kind, is_start):
             account.left = NOTE
-            if record.kind in _TEXTS:
-                self.write(record)
+            self.note(record)
         if self.wishes.is_by_layer(account.left) and not is_start and not _is_note(record.kind, is_start):
             self.see(record, account)
         if account.left:
@@ -154,6 +160,29 @@ class _Collector:
             account.left = _unread(error)
         account.is_odd = True
         del self.content.edges[known:]
+
+    def note(self, record: Record) -> None:
+        """Keep the texts and lines of what is nothing to cut."""
+        if record.kind in _TEXTS:
+            self.write(record)
+        elif record.kind in _FILLS:
+            self.content.noted.fills.append(partial(self.around, record, self.placing.matrix))
+        elif record.kind in _DIMENSIONS and (block := self.file.blocks.get(record.value(2).strip().lower())):
+            # (a block of its own shows it)
+            for part in block.records:
+                if part.kind in _TEXTS:
+                    self.write(part)
+                elif part.kind in fast_dxf.KINDS or part.kind in fast_dxf.POLYLINES:
+                    with suppress(NotFlat, *UNREADABLE):
+                        self.content.noted.edges += (edge for edge in self.edges_of(part) if edge.length > 0)
+
+    def around(self, record: Record, matrix: Matrix44 | None) -> list[Edge]:
+        """The edges around what a record fills; `matrix`: of the block that it stands in."""
+        self.placing.matrix = matrix
+        with suppress(NotFlat, *UNREADABLE):
+            places = _slow_dxf().around(record, _COARSE / self.placing.factor)
+            return [self.placing.line(start, end) for path in places for start, end in pairwise(path) if start != end]
+        return []
 
     def write(self, record: Record) -> None:
         """Keep a text, for who looks at the drawing."""

@@ -28,7 +28,7 @@ from skg.messages.render import text
 # (all of these at once: what a library drops while it is loaded keeps alive all that those hold who called for it; what
 # reads SVG is loaded for that alone)
 from skg.reading import dxf_entities, dxf_file
-from skg.reading.account import ASKED, NOT_TOLD, NOTE, ODD_METRES, TOLD, Account, Content, Written, listed
+from skg.reading.account import ASKED, NOT_TOLD, NOTE, ODD_METRES, TOLD, Account, Content, Noted, Written, listed
 from skg.reading.chain import merged
 from skg.reading.selection import Fates, Selection
 
@@ -63,7 +63,7 @@ class Reading:
     that are left because of their layers; `opened`: the open lines, cut or not, on any layer. `begun`: the report but
     for what becomes of the entities, `fates` has that; `drawn`: the contours as the entities have their edges;
     `nominal`: the edges of the file, before anything was mended; `unasked`: those of layers that are not cut;
-    `written`: its texts.
+    `written`: its texts; `noted`: lines of what is nothing to cut.
     """
 
     contours: list[Contour]
@@ -76,6 +76,7 @@ class Reading:
     nominal: list[Edge]
     unasked: list[Edge]
     written: list[Written]
+    noted: Noted
 
     def is_same(self, wishes: Wishes, others: Wishes) -> bool:
         """Tell whether others than the wishes that it was read by give the same: what becomes of open lines does not
@@ -132,7 +133,7 @@ def _read(data: bytes, name: str, wishes: Wishes) -> Reading:
     _check_size(report)
     contours = [replace(merged(contour), layers=fates.layers(contour)) for contour in drawn]
     others, opened = selection.others()
-    seen = content.edges, content.others, content.written
+    seen = content.edges, content.others, content.written, content.noted
     return _near_origin(Reading(contours, content.starts, others, opened, report, fates, drawn, *seen))
 
 
@@ -167,7 +168,12 @@ def _near_origin(reading: Reading) -> Reading:
         replace(repair, places=(shifted(repair.places[0], by), shifted(repair.places[1], by)))
         for repair in report.repairs
     ]
-    seen: dict[str, Any] = {"nominal": nominal, "unasked": unasked, "written": written}
+    seen: dict[str, Any] = {
+        "nominal": nominal,
+        "unasked": unasked,
+        "written": written,
+        "noted": replace(reading.noted, by=by),
+    }
     return replace(reading, contours=contours, starts=starts, others=others, opened=opened, **seen)
 
 

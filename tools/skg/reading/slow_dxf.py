@@ -27,7 +27,7 @@ from ezdxf.tools.codepage import toencoding
 
 from skg.geometry.contour import Edge
 from skg.messages.finding import Phrase
-from skg.reading.budget import check_entities
+from skg.reading.budget import check_entities, check_vertices
 from skg.reading.curves import spline_edges
 from skg.reading.dxf_placing import LEVEL, NotFlat, Placing, swept
 from skg.reading.dxf_record import Group, Record
@@ -96,6 +96,17 @@ def _entity(record: Record) -> Any:  # noqa: ANN401
             graphic.link_entity(_entity(part))
     # (only now does ezdxf see whether a polyline is a mesh)
     return graphic.cast() if record.parts and hasattr(graphic, "cast") else graphic
+
+
+def around(record: Record, off: float) -> Iterator[list[Vec3]]:
+    """The closed lines around what a hatch fills, as places whose chords leave them by no more; raises as `entity`
+    does."""
+    from ezdxf.path import from_hatch  # (slow to import)
+
+    with _told():
+        for path in from_hatch(_entity(record)):
+            check_vertices(len(path), record.kind)
+            yield list(path.flattening(off, segments=4))
 
 
 def placed(record: Record, base: tuple[float, float, float], outer: Matrix44 | None) -> list[Matrix44]:

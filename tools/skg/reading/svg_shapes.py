@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from itertools import pairwise
 from math import atan2, hypot, pi, sqrt
@@ -18,7 +19,7 @@ from skg.geometry.contour import Edge
 from skg.geometry.plane import XY, cross, distance, minus
 from skg.job.read_options import Wishes
 from skg.messages.finding import Finding, Phrase
-from skg.reading.account import NOTE, Content, Entity, by_layer
+from skg.reading.account import NOTE, Content, Entity, Written, by_layer
 from skg.reading.budget import check_vertices
 from skg.reading.curves import conic, is_number, spline_edges
 from skg.reading.svg_file import NOTES, NUMBER, SHAPES, UNREADABLE, Drawn, SvgFile, View, length_of, property_of, tag_of
@@ -29,6 +30,11 @@ _MARKED = ("path", "line", "polyline", "polygon")
 _NO_PATH = re.compile(r"(?:[^\s,\d.eE+MmZzLlHhVvCcSsQqTtAa-]|[eE](?![+-]?\d)).*")
 #: A line that is wider than this is said, mm.
 _WIDE = 1.0
+#: Of the size of letters: how high a capital is, how wide one; that which is not told, pixels; the part of a line
+#: before its place, by its anchor.
+_CAPITAL, _WIDTH = 0.7, 0.55
+_SIZE = 16.0
+_ANCHORS = {"middle": 0.5, "end": 1.0}
 #: Why a shape is left that has neither a stroke nor a fill.
 _UNPAINTED = Phrase("reason-unpainted")
 
@@ -124,6 +130,26 @@ def _around(centre: XY, rx: float, ry: float) -> list[svgelements.Arc]:
     return [svgelements.Arc(start, start, centre, **whole)] if rx > 0 and ry > 0 else []
 
 
+def _corner_of(element: ElementTree.Element, view: View, before: XY) -> XY:
+    """The first place of a text or of a part of it, in its own pixels; what is not told is as it was before."""
+
+    def first(name: str, whole: float | None) -> float | None:
+        return length_of((element.get(name) or "").replace(",", " ").partition(" ")[0], whole, view.px)
+
+    x, y = (
+        (was if (place := first(side, whole)) is None else place) + (first(f"d{side}", whole) or 0.0)
+        for side, whole, was in zip("xy", view.size, before, strict=True)
+    )
+    return x, y
+
+
+def _size_of(view: View) -> float:
+    """The size of letters, pixels; one that is no length is that of browsers."""
+    with suppress(ValueError):
+        return length_of(view.style.font_size, None, view.px) or _SIZE
+    return _SIZE
+
+
 def collect(file: SvgFile, px: float, wishes: Wishes) -> Content:
     """Return the shapes of a drawing, and the edges of those that are wanted, in mm, y upwards from the page's lower
     edge. `px`: mm in one pixel."""
@@ -156,6 +182,9 @@ class _SvgCollector:
         kind, layer = tag_of(item.element), item.view.layer
         account = Entity(kind, layer, (0.0, 0.0), self.wishes.unwanted(layer) or item.left)
         self.result.entities.append(account)
+        if kind == "text" and not (item.view.hidden or self.wishes.unwanted(layer)):
+            with suppress(*UNREADABLE):
+                self._write(item)
         if kind not in SHAPES or item.left and item.left.code == "reason-unread":
             account.is_odd = not item.view.hidden and kind not in NOTES
             return
@@ -188,6 +217,24 @@ class _SvgCollector:
             self.unpainted.append((account, edges))
         else:
             self._cut(account, item.view, edges)
+
+    def _write(self, item: Drawn) -> None:
+        """Keep a text, for who looks at the drawing: each part of it that has a place of its own."""
+        view = item.view
+        lines: list[tuple[XY, list[str]]] = []
+        for element in item.element.iter():
+            if element is item.element or element.get("x") or element.get("y") or element.get("dy"):
+                before = lines[-1][0] if lines else (0.0, 0.0)
+                lines.append((_corner_of(element, view, before), []))
+            lines[-1][1].append(element.text or "")
+            lines[-1][1].append((element.tail or "") if element is not item.element else "")
+        size = _size_of(view)
+        self.shapes.matrix = view.matrix
+        for (x, y), parts in lines:
+            if text := " ".join("".join(parts).split()):
+                x -= _ANCHORS.get(view.style.anchor, 0.0) * _WIDTH * size * len(text)
+                foot, head = (self.shapes.point(svgelements.Point(x, up)) for up in (y, y - _CAPITAL * size))
+                self.result.written.append(Written(text, foot, minus(head, foot)))
 
     def _start(self, account: Entity, outline: Sequence[svgelements.PathSegment]) -> None:
         """A shape on the layer of start holes: a circle is one, about its middle."""

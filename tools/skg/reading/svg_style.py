@@ -26,7 +26,7 @@ _PROPERTIES = (
     "display", "visibility", "opacity", "fill", "fill-opacity", "stroke", "stroke-opacity", "stroke-width",
     "stroke-dasharray", "clip-path", "mask", "overflow", "transform", "transform-origin", "transform-box", *_MARKERS,
 )  # fmt: skip
-_PRESENTED = frozenset((*_PROPERTIES, "color"))
+_PRESENTED = frozenset((*_PROPERTIES, "color", "font-size", "text-anchor"))
 #: Lengths of an element's form, which may be told as properties, too; they are not handed down.
 _GEOMETRY = frozenset(("x", "y", "width", "height", "r", "rx", "ry", "cx", "cy", "d"))
 #: Colours that are not seen (the fourth of a colour's numbers is 0), a gradient or a pattern by its id with the colour
@@ -54,8 +54,8 @@ _REMARK = re.compile(r"/\*.*?\*/", re.DOTALL)
 class Style:
     """The style of an element, inheritance included: fill, stroke, its width and dashes, visibility.
     `variables`: values that are told once, by their names (--ink) in lower case. `origin` and `box`: what its transform
-    turns about, and whose sides percentages there are of. `geometry`: lengths of its form that are told as properties,
-    not as attributes."""
+    turns about, and whose sides percentages there are of. `font_size`, `anchor`: of its texts. `geometry`: lengths of
+    its form that are told as properties, not as attributes."""
 
     fill: str = "black"
     stroke: str = "none"
@@ -73,6 +73,8 @@ class Style:
     is_clipped: bool = False
     is_overflowing: bool = False
     markers: tuple[str, ...] = ("none",) * len(_MARKERS)
+    font_size: str = ""
+    anchor: str = ""
     geometry: dict[str, str] = field(default_factory=dict)
     variables: dict[str, str] = field(default_factory=dict)
 
@@ -216,6 +218,8 @@ class StyleSheet:
             box=properties.get("transform-box", ""),
             is_clear=_is_nothing(properties.get("opacity"), False),
             markers=_markers(properties, outer.markers),
+            font_size=properties.get("font-size", outer.font_size),
+            anchor=properties.get("text-anchor", outer.anchor),
             geometry={name: properties[name] for name in declared if name in _GEOMETRY and name in properties},
             variables=variables,
             is_overflowing=properties.get("overflow", "").startswith("visible"),

@@ -6,7 +6,7 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from functools import lru_cache
-from itertools import pairwise, zip_longest
+from itertools import islice, pairwise, zip_longest
 from typing import Any
 from zlib import crc32
 
@@ -41,7 +41,8 @@ _LENGTH, _ANGLE = 4, 6
 _CURVE = 0.0005
 #: So many repairs of a kind are offered.
 _MOST_REPAIRS = 200
-#: So many texts of a drawing are shown.
+#: So many edges of what is nothing to cut, and so many texts, are shown.
+_MOST_NOTED = 50_000
 _MOST_TEXTS = 2000
 #: The plan of a contour that is not cut.
 _LEFT: dict[str, Any] = {
@@ -126,7 +127,7 @@ def _left(drawn: DrawnJob) -> dict[str, Any]:
     reading = drawn.reading
     left = [edge for edge in reading.nominal if edge.entity not in reading.report.whole]
     return {
-        "edges": edges([*left, *reading.unasked]),
+        "edges": edges([*left, *reading.unasked, *islice(reading.noted.every(), _MOST_NOTED)]),
         "notes": [
             {"text": _plain(written.text), "place": place(written.place), "up": place(written.up)}
             for written in reading.written[:_MOST_TEXTS]

@@ -17,6 +17,7 @@ export class Decisions {
   /** The one that is shown, and how it is known again when others have come or gone. */
   #at = 0;
   #present = "";
+  #isWrong = false;
   #shown = "";
 
   constructor(desk: Desk, canvas: Canvas, told: TellTale) {
@@ -40,6 +41,10 @@ export class Decisions {
     const open = this.#told.open;
     const same = open.findIndex((line) => nameOf(line) === this.#present);
     this.#at = same >= 0 ? same : Math.min(this.#at, Math.max(0, open.length - 1));
+    // (what keeps the tape from being made is looked at when it comes)
+    const isWrong = open.some((each) => each.wrong);
+    if (isWrong && !this.#isWrong) this.#at = open.findIndex((each) => each.wrong);
+    this.#isWrong = isWrong;
     const line = open[this.#at];
     this.#present = line ? nameOf(line) : "";
     this.#ring([]);
@@ -65,8 +70,9 @@ export class Decisions {
     this.#canvas.rings = [...rings, ...meant.map((place) => ({ place: micrometres(place), isWrong: false, isPresent: true }))];
   }
 
-  #button({ label, act, places }: Fix): HTMLButtonElement {
+  #button({ label, name, act, places }: Fix): HTMLButtonElement {
     const made = make("button", "", label);
+    if (name) made.title = made.ariaLabel = name;
     made.type = "button";
     made.addEventListener("click", act);
     if (places) {

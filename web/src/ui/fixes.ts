@@ -10,6 +10,8 @@ import { find, type Word, w } from "./words.ts";
 
 export interface Fix {
   readonly label: string;
+  /** What it is called where the label beside another button is too short for it. */
+  readonly name?: string;
   /** The places that it is about, which are ringed while it is pointed at. */
   readonly places?: readonly Point[];
   act(): void;
@@ -77,10 +79,9 @@ const OF_ENDS = new Set([
   "no-outline-junctions",
   "ends-near",
   "open-on-line",
-  "line-around",
-  "lines-around",
-  "lines-between",
 ]);
+/** Lines of the report about lines that are not cut. */
+const OF_LINES = new Set(["line-around", "lines-between"]);
 /** Repairs, in the order of their buttons, with these' words for one and for all. */
 const KINDS: readonly (readonly [Repair["kind"], Word, Word | undefined])[] = [
   ["corner", "fixCorner", "fixCornerAll"],
@@ -107,7 +108,8 @@ export function fixesOf(desk: Desk, line: Told): Fix[] {
     if (part) return [{ label, act: () => edit(set(desk.edited, part, under(setting), taken)) }];
     return setting === "side" ? [{ label, act: () => wish({ side: value as Change["side"] }) }] : [];
   });
-  if (code !== undefined && OF_ENDS.has(code)) fixes.unshift(...repairs(desk, line));
+  if (code !== undefined && OF_ENDS.has(code)) fixes.unshift(...repairs(desk, line, KINDS));
+  if (code !== undefined && OF_LINES.has(code)) fixes.unshift(...repairs(desk, line, KINDS.slice(-1)));
   if (id === undefined || !desk.contours.has(id)) return fixes;
   if (code === "thin-wall") fixes.push(...fieldOf(desk, "offset", id));
   else if (!wrong) return fixes;
@@ -117,12 +119,12 @@ export function fixesOf(desk: Desk, line: Told): Fix[] {
 }
 
 /** What closes the outline at the place of a line of the report, and all places like it; a line that is none is left. */
-function repairs(desk: Desk, { place }: Told): Fix[] {
+function repairs(desk: Desk, { place }: Told, kinds: typeof KINDS): Fix[] {
   const known = (desk.state?.repairs ?? []).filter((repair) => !isRepaired(desk.edited, repair));
   const far = ({ places }: Repair): number =>
     place ? Math.min(...places.map(([x, y]) => Math.hypot(x - place[0], y - place[1]))) : 0;
   const fixes: Fix[] = [];
-  for (const [kind, one, all] of KINDS) {
+  for (const [kind, one, all] of kinds) {
     const alike = known.filter((repair) => repair.kind === kind);
     const [nearest] = [...alike].sort((some, other) => far(some) - far(other));
     if (!nearest) continue;
@@ -133,7 +135,7 @@ function repairs(desk: Desk, { place }: Told): Fix[] {
     });
     // (a line is left that is at this place)
     if (kind !== "stray" || far(nearest) < NEAR) fixes.push(fix(w(one, shown(nearest.size)), [nearest]));
-    if (all && alike.length > 1) fixes.push(fix(w(all, alike.length), alike));
+    if (all && alike.length > 1) fixes.push({ ...fix(w("fixAll", alike.length), alike), name: w(all, alike.length) });
   }
   return fixes;
 }
