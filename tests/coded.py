@@ -1,4 +1,5 @@
-"""Catalogues without words, for `pytest --codes`: each sentence is its code with the values by their names."""
+"""Catalogues without words, for `pytest --codes`: each sentence is its code in brackets, with the values by
+their names."""
 
 from __future__ import annotations
 
@@ -14,7 +15,7 @@ _plain = catalogues.catalogue
 
 
 class Coded(NullTranslations):
-    """A catalogue with each sentence replaced: `no-tab-here contour={contour} length={length:.1f}`."""
+    """A catalogue with each sentence replaced: `[no-tab-here] contour={contour} length={length:.1f}`."""
 
     def __init__(self, language: str) -> None:
         super().__init__()
@@ -36,10 +37,10 @@ def coded(code: str, sentence: str) -> str:
     parts = list(string.Formatter().parse(sentence))
     if not any(re.search(r"\w", before) for before, *_ in parts):
         return sentence
-    words = [code]
-    for _, field, spec, _ in parts:
+    words = [f"[{code}]"]
+    for _, field, spec, conversion in parts:
         if field:
-            value = f"{{{field}:{spec}}}" if spec else f"{{{field}}}"
+            value = "{" + field + (f"!{conversion}" if conversion else "") + (f":{spec}" if spec else "") + "}"
             words.append(value if field.startswith("--") else f"{field}={value}")
     return " ".join(words)
 

@@ -60,15 +60,15 @@ def _template_shape(phrase: Phrase) -> str:
     assert values or any(re.search(r"\w\w", before) for before, *_ in parts), f"any text is {phrase.code}"
     shapes = (
         "".join(
-            re.escape(before) + ("" if field is None else _field_shape(field, spec or "", values))
-            for before, field, spec, _ in string.Formatter().parse(form)
+            re.escape(before) + ("" if field is None else _field_shape(field, spec or "", conversion, values))
+            for before, field, spec, conversion in string.Formatter().parse(form)
         )
         for form in forms
     )
     return "|".join(shapes)
 
 
-def _field_shape(field: str, spec: str, values: Mapping[str, object]) -> str:
+def _field_shape(field: str, spec: str, conversion: str | None, values: Mapping[str, object]) -> str:
     """A regular expression of a field: a setting, in the words of any medium; a value, if it is known."""
     if field.startswith("--"):
         name, _, value = field.removeprefix("--").partition("=")
@@ -76,7 +76,9 @@ def _field_shape(field: str, spec: str, values: Mapping[str, object]) -> str:
             value = _Wording(speech).format_field(values[value[1:]], spec) if value[1:] in values else "\0"
         words = (_Wording(Speech(speech.language, medium)).setting(name, value or None) for medium in Medium)
         return f"(?:{'|'.join(re.escape(word).replace(re.escape(chr(0)), '.*?') for word in words)})"
-    return _value_shape(values[field], spec) if field in values else ".*?"
+    if field not in values:
+        return ".*?"
+    return re.escape(repr(values[field])) if conversion == "r" else _value_shape(values[field], spec)
 
 
 def _value_shape(value: object, spec: str) -> str:
@@ -85,8 +87,9 @@ def _value_shape(value: object, spec: str) -> str:
     if isinstance(value, tuple | list) and any(isinstance(item, Phrase) for item in value):
         between = template("sentence-separator" if spec == ";" else "list-separator", speech.language)
         return re.escape(between).join(_value_shape(item, spec) for item in value)
-    shown = _Wording(speech).format_field(value, spec)
-    return _text_shape(shown) if shown and not shown.islower() else re.escape(shown)
+    shown = re.escape(_Wording(speech).format_field(value, spec))
+    before = r"(?<![\d.])" if shown[:1].isdigit() else ""
+    return before + shown + (r"(?!\d|\.\d)" if shown[-1:].isdigit() else "")
 
 
 def says(text: object, *facts: object) -> bool:

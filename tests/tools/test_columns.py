@@ -20,6 +20,7 @@ from toolhelp import CAD_TAPE
 from skg import tape as tapes
 from skg.errors import UserError
 from skg.geometry.plane import XY, minus
+from skg.messages.finding import Phrase
 from skg.tape import Block, Stop, Tape, arc_block, line_block
 from skg.tape.block import CODES
 from skg.tape.block_list import Blocks
@@ -142,10 +143,10 @@ def test_blocks_that_are_alike_are_followed_once(monkeypatch: pytest.MonkeyPatch
 
 def test_a_block_that_never_ends_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     items = [line_block(5, 5), Stop(1), Block(1, 0, 4, "Y", "NR1", 2)]
-    with pytest.raises(UserError, match=pattern("block 2", "B1B0B4GYNR1")):
+    with pytest.raises(UserError, match=pattern(Phrase("never-ends", number=2, block="B1B0B4GYNR1"))):
         simulate(Tape.of("-", items, drift=False))
     monkeypatch.setattr("skg.tape.moves._CHUNK", 1)
-    with pytest.raises(UserError, match=pattern("block 2", "B1B0B4GYNR1")):
+    with pytest.raises(UserError, match=pattern(Phrase("never-ends", number=2, block="B1B0B4GYNR1"))):
         walk(Tape.of("-", items), np.array([0, 1]))
 
 

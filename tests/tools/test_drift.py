@@ -15,6 +15,7 @@ from oneblock import run_block
 from toolhelp import ROOT, Run
 
 from skg import tape as tapes
+from skg.messages.finding import Phrase
 from skg.ref import run as reference
 from skg.ref.drift import arc
 from skg.ref.tape import Grid, quadrant_into
@@ -161,10 +162,12 @@ def test_command_line(run: Run, tmp_path: Path) -> None:
     assert run("check", tape).exit_code == 0
     closed = run("sim", "--strict-close", tape)
     assert closed.exit_code == 0
-    assert says(closed.output, "path", "0 µm") and says(closed.output, "0 miss", "0 µm")
+    assert says(closed.output, Phrase("sim-path", closing=Phrase("path-closes"))) and says(
+        closed.output, Phrase("sim-ends", misses=0, largest=0, drift=0)
+    )
     assert run("sim", "--strict-close", part.with_suffix(".3b")).exit_code == 1
     # As programmed, the blocks' own ends do not add up: their centres have been moved.
-    assert says(run("sim", "--positions", "machine", tape).output, "drift", "0 µm")
+    assert says(run("sim", "--positions", "machine", tape).output, Phrase("sim-ends", misses=0, largest=0, drift=0))
     assert not says(run("sim", "--positions", "programmed", tape).output, "drift", "0 µm")
     assert run("ref", "--drift", part, "-o", tape).exit_code == 0
     assert tape.read_bytes() == part.with_suffix(".3b").read_bytes()

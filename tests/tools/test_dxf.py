@@ -36,6 +36,7 @@ from skg.geometry.contour import Contour, Edge
 from skg.geometry.plane import XY, distance, minus, polar
 from skg.job.read_options import Wishes
 from skg.job.wanted import Wanted
+from skg.messages.finding import Phrase
 from skg.pictures.dxf import _entities
 from skg.planning.plan import plan
 from skg.reading import dxf_entities, dxf_file
@@ -418,7 +419,14 @@ def test_command_line(run: Run, tmp_path: Path) -> None:
     program, tape, back = (tmp_path / f"plate.{kind}" for kind in ("skg", "3b", "out.dxf"))
     result = run("cut", drawing, "--offset", "0.1", "-o", os.devnull, "--program", program)
     assert result.exit_code == 0
-    assert says(result.stderr, "layer 0", "10 entities", "9 cut", "1 left", "1 TEXT")
+    assert says(
+        result.stderr,
+        Phrase("layer-sum", layer="0"),
+        Phrase("count-entities", count=10),
+        Phrase("layer-cut", count=9),
+        Phrase("layer-left", count=1),
+        Phrase("count-kind", count=1, kind="TEXT"),
+    )
     tape.write_bytes(tapes.to_bytes(load.load(str(program), "reference").items))
     assert run("dxf", tape, "--start", "10,10", "-o", back).exit_code == 0
     layers = {entity.dxf.layer for entity in ezdxf.readfile(back).modelspace()}
@@ -522,20 +530,20 @@ def tilted() -> Drawing:
 @pytest.mark.parametrize(
     ("make", "arguments", "message"),
     [
-        (empty, [], "no lines, arcs or curves to cut"),
-        (tilted, [], "leaves the drawing's plane, expected a flat drawing"),
-        (drawings.die_plate, ["--layer", "CUT"], "no layer 'CUT', the drawing has 0"),
-        (drawings.connecting_rod, ["--start", "0,0"] * 4, "4 start holes for 3 contours"),
+        (empty, [], Phrase("nothing-to-cut")),
+        (tilted, [], Phrase("reason-leaves-plane")),
+        (drawings.die_plate, ["--layer", "CUT"], Phrase("layer-unknown", layer="CUT")),
+        (drawings.connecting_rod, ["--start", "0,0"] * 4, Phrase("too-many-holes", count=4, contours=3)),
     ],
 )
 def test_bad_drawings(
-    run_program: Run, tmp_path: Path, make: Callable[[], Drawing], arguments: list[str], message: str
+    run_program: Run, tmp_path: Path, make: Callable[[], Drawing], arguments: list[str], message: Phrase
 ) -> None:
     drawing = tmp_path / "bad.dxf"
     make().saveas(drawing)
     result = program_by(run_program, drawing, *arguments)
     assert result.returncode == 2
-    assert message in result.stderr.splitlines()[-1]
+    assert says(result.stderr.splitlines()[-1], message)
     assert "Traceback" not in result.stderr
     assert result.stdout == ""
 
@@ -545,34 +553,53 @@ def test_no_outline(run_program: Run, tmp_path: Path) -> None:
     branching().saveas(tmp_path / "star.dxf")
     result = program_by(run_program, tmp_path / "star.dxf")
     assert result.returncode == 0
-    assert says(result.stderr, "no closed outline")
+    assert says(result.stderr, Phrase("no-closed-as-drawn"))
     assert result.stdout.count("CUT ") == 3
 
 
-@pytest.mark.parametrize("data", ["", "hello\n", "0\nSECTION\n2\nENTITIES\n0\nLINE\n", "\0\1\2"])
-def test_not_a_drawing(run_program: Run, data: str) -> None:
+@pytest.mark.parametrize(
+    ("data", "code"),
+    [
+        ("", "no-section"),
+        ("hello\n", "no-section"),
+        ("0\nSECTION\n2\nENTITIES\n0\nLINE\n", "cut-off"),
+        ("\0\1\2", "no-section"),
+    ],
+)
+def test_not_a_drawing(run_program: Run, data: str, code: str) -> None:
     result = program_by(run_program, "-", stdin=data)
     assert result.returncode == 2
     assert len(result.stderr.splitlines()) == 1
-    assert says(result.stderr, "skg: -: ", "cut off" if "SECTION" in data else "DXF drawing")
+    assert says(result.stderr, "skg: -: ", Phrase(code))
+
+
+#: An error in the second contour of a program.
+IN_TWO = (
+    "skg: two.skg: ERR 06 LINE 40, ",
+    Phrase("meaning-6"),
+    Phrase("in-contour", contour="2. OPENING: 1 CIRCLE"),
+)
 
 
 @pytest.mark.parametrize(
-    ("arguments", "message"),
+    ("arguments", "facts"),
     [
-        (["dxf", "empty.skg"], "skg: empty.skg: empty, expected an SKG program"),
-        (["dxf", "tape.3b", "--start", "nan,1"], "'nan,1': expected numbers of at most 8 digits"),
-        (["dxf", "tape.3b", "--start", "1,nan"], "'1,nan': expected numbers of at most 8 digits"),
-        (["dxf", "two.skg"], "skg: two.skg: ERR 06 LINE 40, geometry impossible, in contour 2. OPENING: 1 CIRCLE"),
+        (["dxf", "empty.skg"], ("skg: empty.skg: ", Phrase("empty-program", expected=Phrase("file-program")))),
+        (["dxf", "tape.3b", "--start", "nan,1"], (Phrase("long-numbers", value="'nan,1'", most=8),)),
+        (["dxf", "tape.3b", "--start", "1,nan"], (Phrase("long-numbers", value="'1,nan'", most=8),)),
+        (["dxf", "two.skg"], IN_TWO),
         (
             ["dxf", "two.skg", "--skg80", "reference"],
-            "skg: two.skg: ERR 06 LINE 40, geometry impossible, in contour 2. OPENING: 1 CIRCLE",
+            IN_TWO,
         ),
-        (["ref", "tape.skg"], "skg: tape.skg: a 3B tape, expected an SKG program"),
+        (
+            ["ref", "tape.skg"],
+            ("skg: tape.skg: ", Phrase("other-kind", kind=Phrase("file-tape"), expected=Phrase("file-program"))),
+        ),
     ],
 )
 def test_wrong_files(
-    run_program: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str], message: str
+    run_program: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str], facts: tuple
 ) -> None:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "empty.skg").write_text("")
@@ -582,7 +609,7 @@ def test_wrong_files(
     (tmp_path / "two.skg").write_text("".join(f"{at}0 {line}\n" for at, line in enumerate(program, 1)))
     result = run_program(*arguments)
     assert result.returncode == 2
-    assert message in result.stderr.splitlines()[-1]
+    assert says(result.stderr.splitlines()[-1], *facts)
     assert "Traceback" not in result.stderr
     assert result.stdout == ""
 
@@ -601,7 +628,7 @@ def test_round_openings(run: Run, tmp_path: Path) -> None:
 
 def test_too_many_lines(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("skg.cutting.program._LAST_LINE", 20)
-    with pytest.raises(UserError, match=pattern("program", "lines", 20)):
+    with pytest.raises(UserError, match=pattern(Phrase("too-many-lines", most=20))):
         program_of(drawings.ratchet)
 
 

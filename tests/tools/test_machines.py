@@ -23,6 +23,7 @@ from toolhelp import Run
 
 from skg import tape as tapes
 from skg.dialects.file import decoded, dialect_of, names
+from skg.messages.finding import Phrase
 from skg.tape import Block, Stop, gcode, gcode_reader
 from skg.tape.layout import PlacedRoute
 
@@ -79,8 +80,8 @@ def test_wire_on_for_cuts_alone(run: Run, tmp_path: Path) -> None:
         elif word in ("G0", "M0", "M30"):
             rests += 1
             assert not is_on
-    assert cuts > 8 and rests > 6 and says(run("check", part, "--machine", "grbl-wire").output, "nothing wrong")
-    assert says(run("sim", part, "--machine", "grbl-wire").output, "blocks")
+    assert cuts > 8 and rests > 6 and says(run("check", part, "--machine", "grbl-wire").output, Phrase("nothing-wrong"))
+    assert says(run("sim", part, "--machine", "grbl-wire").output, Phrase("sim-blocks"))
     run("plot", part, "--machine", "grbl-wire", "-o", tmp_path / "part.svg")
     run("dxf", part, "--machine", "grbl-wire", "-o", tmp_path / "part2.dxf")
     assert run("gcode", "--back", part, "--machine", "grbl-wire").output.count("D\n") >= 5
@@ -95,7 +96,7 @@ def test_what_is_written_checks_right(run: Run, tmp_path: Path) -> None:
     for name in names():
         run("cut", path, "-o", part, "--offset", 0.1, "--machine", name)
         said = run("check", part, "--machine", name)
-        assert said.exit_code == 0 and says(said.output, "nothing wrong"), (name, said.output)
+        assert said.exit_code == 0 and says(said.output, Phrase("nothing-wrong")), (name, said.output)
 
 
 def test_numbers_and_arcs(run: Run, tmp_path: Path) -> None:
@@ -125,14 +126,23 @@ def dense(routes: list[PlacedRoute]) -> shapely.MultiPoint:
 @pytest.mark.parametrize(
     ("text", "facts"),
     [
-        ("[lines]\nhead = []\n", ("foot", "missing")),
-        ("[lines]\nhead = []\nfoot = []\nfeet = []\n", ("[lines]", "feet", "foot")),
-        ('[numbers]\nunit = "inch"\n', ("[numbers]", "unit", "mm, um")),
-        ('[words]\nfeed = "F{speed}"\n', ("[words]", "feed", "{feed}")),
-        ('[lines]\nstart = ["G92 X{x"]\n', ("[lines]", "start")),
-        ('[offset]\nleft = "G41"\n[lines]\nhead=[]\nfoot=[]\n', ("[offset]", "right")),
-        ("[words\n", ("TOML",)),
-        ("words = 3\n", ("[words]", "table")),
+        ("[lines]\nhead = []\n", (Phrase("key-missing", key="foot"),)),
+        (
+            "[lines]\nhead = []\nfoot = []\nfeet = []\n",
+            ("[lines]", Phrase("unknown-key-near", key="feet", near="foot")),
+        ),
+        (
+            '[numbers]\nunit = "inch"\n',
+            ("[numbers]", Phrase("wrong-value", key="unit"), Phrase("value-among", words=("mm", "um"))),
+        ),
+        (
+            '[words]\nfeed = "F{speed}"\n',
+            ("[words]", Phrase("wrong-value", key="feed"), Phrase("value-fields", fields=("{feed}",))),
+        ),
+        ('[lines]\nstart = ["G92 X{x"]\n', ("[lines]", Phrase("wrong-value", key="start"))),
+        ('[offset]\nleft = "G41"\n[lines]\nhead=[]\nfoot=[]\n', ("[offset]", Phrase("key-missing", key="right"))),
+        ("[words\n", (Phrase("not-toml"),)),
+        ("words = 3\n", ("[words]", Phrase("expected-table"))),
     ],
 )
 def test_bad_machines(run: Run, tmp_path: Path, text: str, facts: tuple[str, ...]) -> None:
@@ -142,16 +152,26 @@ def test_bad_machines(run: Run, tmp_path: Path, text: str, facts: tuple[str, ...
 
 
 def test_errors(run: Run, tmp_path: Path) -> None:
-    assert says(run_failing(run, "gcode", CAD_TAPE_FILE, "--machine", "wire-fanuk"), "wire-fanuk", "wire-fanuc")
+    assert says(
+        run_failing(run, "gcode", CAD_TAPE_FILE, "--machine", "wire-fanuk"),
+        Phrase("no-machine-near", name="wire-fanuk", near="wire-fanuc"),
+    )
     page = drawing()
     polygon([(0, 0), (30, 0), (30, 20), (0, 20)], page)
     path = saved(page, tmp_path)
-    assert says(run_failing(run, "cut", path, "-o", tmp_path / "part.nc"), "part.nc", "--machine")
-    assert says(run_failing(run, "gcode", CAD_TAPE_FILE, "--machine", "grbl-wire", "--z", "-1"), "--z", "--machine")
+    assert says(run_failing(run, "cut", path, "-o", tmp_path / "part.nc"), "part.nc", Phrase("tape-named-gcode"))
+    assert says(
+        run_failing(run, "gcode", CAD_TAPE_FILE, "--machine", "grbl-wire", "--z", "-1"), Phrase("z-with-machine")
+    )
     # what a dialect has and the reader has not is an error with its line
     odd = tmp_path / "odd.nc"
     odd.write_text("G21\nG90\nG0 X0 Y0\nSET_PIN PIN=wire VALUE=1\nG1 X10 F60\nSET_PIN PIN=fan VALUE=1\nM2\n")
-    assert says(run_failing(run, "gcode", "--back", odd, "--machine", "klipper"), "odd.nc", "line 6")
+    assert says(
+        run_failing(run, "gcode", "--back", odd, "--machine", "klipper"),
+        "odd.nc",
+        Phrase("at-column", line=6),
+        Phrase("gcode-no-word"),
+    )
 
 
 # An offset in the control, by an interpreter of its own: lines and arcs of a program, moved aside, until they meet.
@@ -297,9 +317,10 @@ def test_offset_in_the_control(run: Run, tmp_path: Path, name: str, lead: str) -
     for one, other in ((both, ours), (ours, both)):
         assert one.segmentize(0.05).hausdorff_distance(other) < LIMIT + 0.0005
     read = run("gcode", "--back", part, "--machine", "wire-fanuc")
-    assert says(read.stderr, "contour", "offsets")
+    assert says(read.stderr, Phrase("offsets-in-control"))
 
 
+@pytest.mark.wording
 def test_page(tmp_path: Path) -> None:
     for name in ("docs", "examples"):
         (tmp_path / name).symlink_to(ROOT / name)

@@ -16,6 +16,7 @@ from test_cut import start_of
 from toolhelp import Run
 
 from skg.geometry.contour import Contour, Edge
+from skg.messages.finding import Phrase
 from skg.planning.islands import islands
 from skg.planning.planned import PlannedContour
 
@@ -55,7 +56,7 @@ def test_the_holes_alone(run: Run, tmp_path: Path) -> None:
         for ring in found:
             radii = [min(Point(at).distance(Point(hole)) for hole in HOLES) for at in ring.coords]
             assert max(radii) < 4 - OFFSET + 0.003, radii
-        assert says(told, CARE, "4 openings", "layer OUT", "--side outside")
+        assert says(told, CARE, Phrase("openings-in-part", count=4, layers=("OUT",)), "--side outside")
     found, told = ways(run, path, "--layer", "HOLES", "--side", "outside")
     assert all(shapely.Polygon(ring).area > 16 * 3.1416 for ring in found)
     assert not says(told, CARE, "layer OUT")
@@ -66,7 +67,7 @@ def test_the_holes_of_a_plate_that_is_not_seen(run: Run, tmp_path: Path, state: 
     page = plate()
     getattr(page.layers.add("OUT"), state)()
     found, told = ways(run, saved(page, tmp_path))
-    assert len(found) == len(HOLES) and says(told, CARE, "4 openings")
+    assert len(found) == len(HOLES) and says(told, CARE, Phrase("openings-in-part", count=4))
     assert all(shapely.Polygon(ring).area < 16 * 3.1416 for ring in found)
 
 
@@ -80,12 +81,14 @@ def test_a_frame(run: Run, tmp_path: Path, layers: tuple[str, ...], openings: in
     words = [word for layer in layers for word in ("--layer", layer)]
     found, told = ways(run, path, *words)
     assert len(found) == openings + outlines
-    order = told.split("cut in this order: ")[1].split(";")[0]
-    names = [f"{openings} opening{'s' * (openings > 1)}"] * (openings > 0)
-    names += [f"{outlines} outline{'s' * (outlines > 1)}"] * (outlines > 0)
-    assert sorted(order.split(", ")) == sorted(names)
-    assert says(told, CARE, "layer FRAME", "--side inside") == ("OUT" in layers and "FRAME" not in layers)
-    assert says(told, CARE, "layer OUT", "--side outside") == ("OUT" not in layers)
+    kinds = [Phrase("count-opening", count=openings)] * (openings > 0) + [Phrase("count-outline", count=outlines)]
+    kinds = kinds[: (openings > 0) + (outlines > 0)]
+    orders = (tuple(kinds), tuple(reversed(kinds)))
+    assert any(says(told, Phrase("order-of-cutting", kinds=order)) for order in orders)
+    assert says(told, CARE, Phrase("outlines-in-frame", layers=("FRAME",)), "--side inside") == (
+        "OUT" in layers and "FRAME" not in layers
+    )
+    assert says(told, CARE, Phrase("openings-in-part", layers=("OUT",)), "--side outside") == ("OUT" not in layers)
 
 
 @pytest.mark.parametrize("around", ["thread", "copy", "dashed", "beside", "text"])
@@ -107,7 +110,9 @@ def test_what_makes_no_opening(run: Run, tmp_path: Path, around: str) -> None:
         polygon([(-20, -20), (-1, -20), (-1, 90), (-20, 90)], page, layer="MARKS")
     page.modelspace().add_text("60 x 40", dxfattribs={"layer": "MARKS"})
     found, told = ways(run, saved(page, tmp_path), "--layer", "CUT")
-    assert says(told, "4 openings", "1 outline") and not says(told, CARE)
+    assert says(
+        told, Phrase("order-of-cutting"), Phrase("count-opening", count=4), Phrase("count-outline", count=1)
+    ) and not says(told, CARE)
     assert len(found) == 5
 
 
@@ -129,10 +134,12 @@ def test_the_holes_of_a_plate_that_is_open(run: Run, tmp_path: Path, gaps: str) 
     for centre in HOLES:
         page.modelspace().add_circle(centre, 4, {"layer": "HOLES"})
     path = saved(page, tmp_path)
-    width = re.compile(r"1(\.414\d)? mm")
+    width = re.compile(r"\b1(\.414\d)?\b")
     for words in (["--layer", "HOLES"], ["--open", "leave"], ["--open", "cut"]):
         done = run("cut", path, "-o", tmp_path / "a.3b", "--offset", OFFSET, "--quiet", *words)
-        assert done.exit_code == 0 and says(done.stderr, CARE, "4 outlines", "layer OUT", width, "--side inside"), words
+        assert done.exit_code == 0 and says(
+            done.stderr, CARE, Phrase("outlines-in-open-line", count=4, layers=("OUT",)), width, "--side inside"
+        ), words
     done = run("cut", path, "-o", tmp_path / "a.3b", "--offset", OFFSET, "--layer", "HOLES", "--side", "inside")
     assert done.exit_code == 0 and not says(done.stderr, CARE, "layer OUT")
 
@@ -162,7 +169,15 @@ def test_an_open_line_in_an_opening_goes_before_it(run: Run, tmp_path: Path) -> 
     page.modelspace().add_line((20, 20), (40, 20), {"layer": "WINDOW"})
     path = saved(page, tmp_path)
     done = run("cut", path, "-o", tmp_path / "a.3b", "--layer", "WINDOW", "--offset", OFFSET, "--open", "cut")
-    assert done.exit_code == 0 and re.search(pattern("1 open contour", "1 opening", "start hole"), done.stderr)
+    assert done.exit_code == 0 and re.search(
+        pattern(
+            Phrase("order-of-cutting"),
+            Phrase("count-open-contour", count=1),
+            Phrase("count-opening", count=1),
+            Phrase("count-holes"),
+        ),
+        done.stderr,
+    )
 
 
 def test_a_part_far_from_the_origin(run: Run, tmp_path: Path) -> None:
@@ -173,7 +188,9 @@ def test_a_part_far_from_the_origin(run: Run, tmp_path: Path) -> None:
     for x, y in HOLES:
         page.modelspace().add_circle((x + by[0], y + by[1]), 4, {"layer": "HOLES"})
     _, told = ways(run, saved(page, tmp_path), "--layer", "HOLES")
-    assert says(told, re.compile(r"\(-?3[\d.]{6,}, -?5[\d.]{6,}\)")) and says(told, CARE, "4 openings")
+    assert says(told, re.compile(r"\(-?3[\d.]{6,}, -?5[\d.]{6,}\)")) and says(
+        told, CARE, Phrase("openings-in-part", count=4)
+    )
 
 
 def test_layers_of_svg(run: Run, tmp_path: Path) -> None:
@@ -185,7 +202,9 @@ def test_layers_of_svg(run: Run, tmp_path: Path) -> None:
         '<circle cx="10" cy="10" r="4"/></g></svg>'
     )
     (ring,), told = ways(run, path, "--layer", "HOLES")
-    assert shapely.Polygon(ring).area < 16 * 3.1416 and says(told, CARE, "1 opening")
+    assert shapely.Polygon(ring).area < 16 * 3.1416 and says(
+        told, CARE, Phrase("openings-in-part", count=1), Phrase("contours-in-brackets", numbers=(1,))
+    )
 
 
 def test_what_goes_with_an_opening_that_is_left_out() -> None:

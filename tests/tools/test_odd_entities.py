@@ -9,12 +9,13 @@ import ezdxf
 import pytest
 from ezdxf.document import Drawing
 from ezdxf.math import Matrix44, Vec3
-from facthelp import counts_say, each_says, pattern, says
+from facthelp import each_says, pattern, says
 from test_reading import checked, dxf_bytes, left, line, raw, square
 from toolhelp import in_time
 
 from skg.errors import UserError
 from skg.geometry.plane import distance
+from skg.messages.finding import Finding, Phrase
 from skg.messages.render import text
 from skg.reading.dxf_placing import LEAVES
 from skg.reading.read import Reading, read
@@ -24,8 +25,8 @@ TYPES = "0\nLTYPE\n2\nCENTER\n73\n4\n0\nLTYPE\n2\nCONTINUOUS\n73\n0\n"
 DASHED = "dashes", "closed outline", "--open all"
 
 
-def notes(reading: Reading, word: str) -> list[str]:
-    return [note for note in reading.report.lines() if word in note]
+def notes(reading: Reading, code: str) -> list[Finding]:
+    return [finding for finding in reading.report.report() if finding.code == code]
 
 
 def mm() -> Drawing:
@@ -63,7 +64,7 @@ def test_multiline_without_its_style() -> None:
     data = dxf_bytes(drawing).replace(b"MLINESTYLE", b"NOLINESTYL")
     reading = checked(data)
     assert len(reading.contours) == 1
-    assert says(notes(reading, "MLINE")[0], "style Standard", "file")
+    assert says(notes(reading, "layer-sum")[0], Phrase("reason-no-style", name="Standard"))
 
 
 def test_old_line_in_space() -> None:
@@ -75,12 +76,12 @@ def test_old_line_in_space() -> None:
 def test_thickness_is_said() -> None:
     reading = checked(raw("CIRCLE 8 PART 10 5 20 5 40 4 39 12.5", "CIRCLE 8 PART 10 50 20 5 40 4 39 0.0"))
     assert len(reading.contours) == 2
-    assert each_says(notes(reading, "thickness"), ("1 entity", "layer PART", "(9, 5)"))
+    assert each_says(notes(reading, "seen-thick"), (Phrase("seen-thick", count=1, layer="PART", place=(9, 5))))
 
 
 def test_faces_are_named() -> None:
     face = "3DFACE 10 0 20 0 30 0 11 9 21 0 31 0 12 9 22 9 32 0 13 0 23 9 33 0"
-    assert any(says(why, "face", "outline") for why in left(checked(raw(face, *square(20, 0, 9)))))
+    assert left(checked(raw(face, *square(20, 0, 9)))) == {"reason-face": 1}
 
 
 AXIS = line(2, 5, 8, 5, "AXES")
@@ -93,9 +94,8 @@ def types(*entities: str) -> bytes:
 def test_solids_are_named() -> None:
     """Solids are listed with advice to the user, a region with the advice to explode it."""
     solids = [f"{kind} 8 0 100 AcDbModelerGeometry 70 1" for kind in ("3DSOLID", "EXTRUDEDSURFACE", "REGION")]
-    reasons = [f"{one.kind}: {text(one.left)}" for one in checked(raw(*square(0, 0, 9), *solids)).report.not_understood]
-    solid = "solid", "outline"
-    assert each_says(reasons, ("3DSOLID: ", *solid), ("EXTRUDEDSURFACE: ", *solid), ("REGION: ", "ACIS", "lines"))
+    reasons = [(one.kind, one.left.code) for one in checked(raw(*square(0, 0, 9), *solids)).report.not_understood]
+    assert reasons == [("3DSOLID", "reason-solid"), ("EXTRUDEDSURFACE", "reason-solid"), ("REGION", "reason-acis")]
 
 
 def test_a_polyline_that_is_not_read_is_placed_at_its_first_corner() -> None:
@@ -103,7 +103,7 @@ def test_a_polyline_that_is_not_read_is_placed_at_its_first_corner() -> None:
     corners = "".join(f"\n0\nVERTEX\n8\n0\n10\n{x}\n20\n7\n30\n{z}\n70\n32" for x, z in ((40, 0), (60, 5), (60, 9)))
     tilted = "POLYLINE 8 0 66 1 70 9 10 0 20 0" + corners + "\n0\nSEQEND"
     (left,) = checked(raw(*square(0, 0, 9), tilted)).report.not_understood
-    assert left.place == (40, 7) and says(text(left.left), "plane", "flat")
+    assert left.place == (40, 7) and left.left.code == "reason-leaves-plane"
 
 
 @pytest.mark.parametrize(("plane", "upwards"), [("xz", "y"), ("yz", "x")])
@@ -128,7 +128,8 @@ def test_a_drawing_that_stands_upright(plane: str, upwards: str) -> None:
         return drawing
 
     flat, standing = (checked(dxf_bytes(drawn(turned=turned))) for turned in (False, True))
-    assert any(says(note, "plane", f"{plane[0]} and {plane[1]}") for note in standing.report.notes)
+    note = Phrase("standing", first=plane[0], second=plane[1])
+    assert any(says(told, note) for told in standing.report.notes)
     assert len(standing.contours) == len(flat.contours) == 5
     for one, other in zip(standing.contours, flat.contours, strict=True):
         assert one.area == pytest.approx(other.area, abs=1e-6)
@@ -145,7 +146,7 @@ def test_axes_within_an_outline_are_left() -> None:
     data = types(*square(0, 0, 10, "PART"), AXIS, own)
     reading = checked(data)
     assert [one.is_closed for one in reading.contours] == [True]
-    assert counts_say(left(reading), {DASHED: 2})
+    assert left(reading) == {"reason-dashed": 2}
     assert len(checked(data, open="refuse").contours) == 1
     assert len(checked(data, open="all").contours) == 3
     assert len(checked(data, layers=("PART", "AXES")).contours) == 2
@@ -157,7 +158,7 @@ def test_a_circle_of_dashes_that_holes_lie_on_is_left() -> None:
     pitch = "CIRCLE 8 AXES 10 10 20 10 40 5"
     reading = checked(types(*square(0, 0, 20, "PART"), pitch, *(hole.format("PART") for hole in holes)))
     assert len(reading.contours) == 5 and not any(says(note, "1 entity", "dashes") for note in reading.report.notes)
-    assert counts_say(left(reading), {("dashes", "across", "--open all"): 1})
+    assert left(reading) == {"reason-axis": 1}
     assert not reading.report.overlaps
     data = types(pitch, *(hole.format("PART") for hole in holes))
     assert [len(checked(data, **options).contours) for options in ({}, {"open": "all"}, {"layers": ("AXES",)})] == [
@@ -173,7 +174,7 @@ def test_lines_that_are_drawn_through_are_cut() -> None:
     data = types(*square(0, 0, 10, "PART"), line(2, 5, 8, 5, "PART"), line(2, 7, 8, 7, "AXES") + " 6 CONTINUOUS")
     reading = checked(data)
     assert len(reading.contours) == 3
-    assert not notes(reading, "dashes")
+    assert not notes(reading, "seen-dashed")
 
 
 def test_an_outline_that_dashes_start_from() -> None:
@@ -190,10 +191,14 @@ def test_a_drawing_in_dashes_is_cut() -> None:
     """Dashed lines are cut if no outline is solid; they are reported, as is a dashed opening."""
     reading = checked(types(*square(0, 0, 10, "AXES"), AXIS))
     assert len(reading.contours) == 2
-    assert each_says(notes(reading, "dashes"), ("5 entities", "layer AXES", "CENTER", "(0, 0)"))
+    assert each_says(
+        notes(reading, "seen-dashed"), (Phrase("seen-dashed", count=5, layer="AXES", dashes="CENTER", place=(0, 0)))
+    )
     reading = checked(types(*square(0, 0, 10, "PART"), "CIRCLE 8 AXES 10 5 20 5 40 2"))
     assert len(reading.contours) == 2
-    assert each_says(notes(reading, "dashes"), ("1 entity", "layer AXES", "CENTER", "(7, 5)"))
+    assert each_says(
+        notes(reading, "seen-dashed"), (Phrase("seen-dashed", count=1, layer="AXES", dashes="CENTER", place=(7, 5)))
+    )
 
 
 def test_dashes_of_a_block() -> None:
@@ -207,7 +212,7 @@ def test_dashes_of_a_block() -> None:
     space.add_blockref("MARK", (1, 1), {"linetype": "DASHED"})
     space.add_blockref("MARK", (1, 5))
     reading = checked(dxf_bytes(drawing))
-    assert counts_say(left(reading), {DASHED: 1})
+    assert left(reading) == {"reason-dashed": 1}
     assert len(reading.contours) == 2
 
 
@@ -218,13 +223,13 @@ def test_decimal_commas() -> None:
     (contour,) = reading.contours
     assert contour.edges[0].centre == (50.25, -7.5)
     assert contour.layers == ("a,5",)
-    assert each_says(notes(reading, "commas"), ("number", "point"))
+    assert each_says(notes(reading, "decimal-commas"), (Phrase("decimal-commas")))
     assert not notes(checked(raw("CIRCLE 8 a,5 10 50.25 20 -7.5 40 4.5")), "commas")
 
 
 def test_a_binary_file_that_went_as_text() -> None:
     data = dxf_bytes(mm(), binary=True).replace(b"\r\n", b"\n")
-    with pytest.raises(UserError, match=pattern("binary DXF drawing")):
+    with pytest.raises(UserError, match=pattern(Phrase("binary-changed"))):
         read(data, "part.dxf")
 
 
@@ -233,7 +238,9 @@ def test_inches_are_hinted_at(measurement: int) -> None:
     """A drawing without units says at least by which country's custom its hatches are drawn."""
     header = f"9\n$INSUNITS\n70\n0\n9\n$MEASUREMENT\n70\n{measurement}\n"
     said = read(raw(*square(0, 0, 9), header=header), "part.dxf").report.lines()[0]
-    assert says(said, "9 x 9 mm", "file") and says(said, "$MEASUREMENT", "inch") == (not measurement)
+    assert says(said, Phrase("size-guessed", width=9, height=9, units="mm"), Phrase("units-not-told")) and says(
+        said, Phrase("size-guessed"), Phrase("units-inches")
+    ) == (not measurement)
 
 
 def test_a_circle_that_is_longer_than_a_tape() -> None:
@@ -243,14 +250,19 @@ def test_a_circle_that_is_longer_than_a_tape() -> None:
         checked(raw(f"CIRCLE 10 0 20 0 40 {radius}"))
 
     def too_long() -> None:
-        with pytest.raises(UserError, match=pattern("50 m")):
+        with pytest.raises(UserError, match=pattern(Phrase("size-too-far", most=50))):
             circle(86000)
 
     in_time(10, too_long, lambda: circle(8))
 
 
 def test_areas_without_lines() -> None:
-    with pytest.raises(UserError, match=pattern("1 SOLID", "outline", "area")):
+    with pytest.raises(
+        UserError,
+        match=pattern(
+            Phrase("nothing-to-cut"), Phrase("kind-and-reason", count=1, kind="SOLID"), Phrase("draw-outlines")
+        ),
+    ):
         checked(raw("SOLID 10 0 20 0 11 9 21 0 12 0 22 9 13 9 23 9"))
 
 
@@ -262,7 +274,9 @@ def test_spline_through_points_alone() -> None:
     (edge,) = reading.contours[0].edges
     for place in places:
         assert min(distance(place, sample) for sample in edge.samples) < 0.05
-    assert each_says(notes(reading, "1 spline"), ("layer 0", "point", "(0, 0)", "curve"))
+    assert each_says(
+        notes(reading, "seen-through-points"), (Phrase("seen-through-points", count=1, layer="0", place=(0, 0)))
+    )
 
 
 #: Entities with a {} where their extrusion stands; a block of an arc for the reference.

@@ -15,6 +15,7 @@ from toolhelp import CAD_TAPE, ROOT
 
 from skg.cli import COMMANDS, cli
 from skg.errors import UserError
+from skg.messages.finding import Phrase
 
 SKG = Path(sys.executable).with_name("skg")
 
@@ -35,7 +36,7 @@ READERS = {
 }
 #: Commands that read no file.
 MAKERS = {"cam": ["--base", "20", "--lift", "8"], "gear": ["--module", "2", "--teeth", "9"]}
-#: What files hold, and what a message must name.
+#: What files hold, and the code of what a message must name.
 FILES = {
     "empty": (b"", ""),
     "blank": (b" \r\n\n", ""),
@@ -45,16 +46,16 @@ FILES = {
     "comments": (b"<!-- -->\n" * 400, ""),
     "remarks": (b"999\nabc\n" * 400, ""),
     "text": (b"Dear Sir,\nplease find enclosed\n", ""),
-    "html": (b"<!DOCTYPE html>\n<html><body>404</body></html>\n", "a web page"),
-    "png": ((ROOT / "docs/pictures/page.png").read_bytes()[:2000], "a PNG picture"),
-    "zip": (b"PK\3\4" + bytes(60), "a zip archive"),
-    "utf-16": ("10 CUT O,(5,0)\n".encode("utf-16"), "text in UTF-16"),
-    "dxf": ((ROOT / "docs/pictures/bracket.dxf").read_bytes(), "a DXF drawing"),
-    "tape": (CAD_TAPE, "a 3B tape"),
+    "html": (b"<!DOCTYPE html>\n<html><body>404</body></html>\n", "file-web-page"),
+    "png": ((ROOT / "docs/pictures/page.png").read_bytes()[:2000], "file-png"),
+    "zip": (b"PK\3\4" + bytes(60), "file-zip"),
+    "utf-16": ("10 CUT O,(5,0)\n".encode("utf-16"), "file-utf-16"),
+    "dxf": ((ROOT / "docs/pictures/bracket.dxf").read_bytes(), "file-dxf"),
+    "tape": (CAD_TAPE, "file-tape"),
     "d": (b"D\r\nDD\r\n", ""),
-    "skg": (b"\xef\xbb\xbf10 CUT O,(5,0),(5,5)\r\n20 END\r\n", "an SKG program"),
-    "fit": ((ROOT / "examples/fit-gear.skg").read_bytes(), "an SKG program"),
-    "nc": ((ROOT / "examples/mill/plate.nc").read_bytes(), "G-code"),
+    "skg": (b"\xef\xbb\xbf10 CUT O,(5,0),(5,5)\r\n20 END\r\n", "file-program"),
+    "fit": ((ROOT / "examples/fit-gear.skg").read_bytes(), "file-program"),
+    "nc": ((ROOT / "examples/mill/plate.nc").read_bytes(), "file-gcode"),
     "xy": ((ROOT / "examples/xy-gear.xy").read_bytes(), ""),
     "tkh": ((ROOT / "examples/tkh-maltese.tkh").read_bytes(), ""),
 }
@@ -91,11 +92,11 @@ def test_files_of_other_kinds(reader: str, tmp_path: Path, monkeypatch: pytest.M
         lines = [line for line in (out + said).splitlines() if line]
         assert (code == 0) == (kind in reads or kind == "d" and code == 0), (kind, code, said)
         if code == 0 and kind == "d":
-            assert "no blocks" in said or "0 blocks" in out, kind
+            assert says(said, Phrase("no-blocks")) or says(out, Phrase("count-blocks", count=0)), kind
         if code == 2 and kind != "d":
             assert len(lines) == 1 and len(lines[0]) < 300, (kind, lines)
         if code and name:
-            assert name in out + said, (kind, out + said)
+            assert says(out + said, Phrase(name)), (kind, out + said)
         tried += 1
     assert tried == len(FILES)
 
@@ -180,7 +181,7 @@ def test_a_closed_output_is_no_success(words: str, tmp_path: Path) -> None:
     (tmp_path / "in.3b").write_bytes(FILES["tape"][0])
     (tmp_path / "in.skg").write_bytes(FILES["skg"][0])
     done = shell(f"skg {words} >&-", tmp_path)
-    assert done.returncode == 2 and each_says(done.stderr, ("skg: ", "output"))
+    assert done.returncode == 2 and each_says(done.stderr, ("skg: ", Phrase("stdout-closed")))
 
 
 def test_output_onto_input(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -194,6 +195,6 @@ def test_output_onto_input(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
         Path(name).write_bytes(FILES[kind][0])
         code, _, said = invoke(*words, f"./{name}", name)
         assert (code, Path(name).read_bytes() == FILES[kind][0]) == (0 if command == "tape" else 2, True), command
-        assert command == "tape" or each_says(said, (f"./{name}: ", "written", "read"))
+        assert command == "tape" or each_says(said, (f"./{name}: ", Phrase("written-twice")))
     Path("in.dxf").write_bytes(FILES["dxf"][0])
-    assert says(invoke("cut", "in.dxf", "-o", "out", "--program", "out")[2], "out: ", "written")
+    assert says(invoke("cut", "in.dxf", "-o", "out", "--program", "out")[2], "out: ", Phrase("written-twice"))

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import pytest
-from facthelp import counts_say, each_says, pattern, says
+from facthelp import each_says, pattern, says
 from test_reading import checked, left
 
 from skg.errors import UserError
 from skg.geometry.plane import XY
+from skg.messages.finding import Phrase
 from skg.reading.read import Reading, Wishes, read
 
 PART = '<rect x="10" y="10" width="20" height="10"/>'
@@ -155,48 +156,51 @@ def test_pages(size: str, expected: Box) -> None:
 @pytest.mark.parametrize(
     ("content", "why"),
     [
-        ("<style>.h{display:none}</style><rect class='x h' width='5' height='5'/>", "not displayed"),
+        ("<style>.h{display:none}</style><rect class='x h' width='5' height='5'/>", "reason-not-displayed"),
         (
             "<style>#k, .b {display : none !important}</style><g id='k'><rect width='5' height='5'/></g>",
-            "not displayed",
+            "reason-not-displayed",
         ),
-        ("<style>g>rect.h{visibility:hidden}</style><g><rect class='h' width='5' height='5'/></g>", "invisible"),
-        ("<g display='none'><rect display='inline' width='5' height='5'/></g>", "not displayed"),
-        ("<g opacity='0.0'><rect width='5' height='5'/></g>", "invisible"),
-        ("<rect width='5' height='5' fill='none'/>", "drawn with neither line nor area"),
-        ("<switch><g><path d='M0 0'/></g><rect width='5' height='5'/></switch>", "not displayed"),
-        ("<switch><rect systemLanguage='de' width='5' height='5'/><g/></switch>", "not displayed"),
-        ("<g xmlns=''><rect width='5' height='5'/></g>", "not in SVG's name space"),
-        ("<x:rect xmlns:x='urn:x' width='5' height='5'/>", "not in SVG's name space"),
-        ("<use href='#nothing'/>", "what it shows, #nothing, is not in the file"),
-        ("<g id='g'><use href='#g'/></g>", "what it shows, #g, is part of itself"),
-        ("<path d='M0 0 L 5 5 Q 3 X 4'/>", "cannot be read (its path data, at X 4)"),
-        ("<path d='M0 0 L 5 5 Q 3 4'/>", "cannot be read (its path data)"),
-        ("<path d='M0 0 H 5 V 5 z # M1 1 H 2 V 2 z'/>", "cannot be read (its path data, at # M1 1 H 2)"),
-        ("<path d='L 5 5 H 9 z'/>", "cannot be read (its path data, at L 5 5 H 9 )"),
-        ("<polygon points='0,0 5,0 5;5'/>", "cannot be read (its points)"),
-        ("<polyline points='0 0 5 0 5'/>", "cannot be read (its points)"),
-        ("<rect width='2em' height='5'/>", "cannot be read (its length 2em)"),
-        ("<rect width='calc(9px + 1mm)' height='5'/>", "cannot be read (its length calc(9px + 1mm))"),
-        ("<rect width='5' height='5' fill-opacity='0'/>", "drawn with neither line nor area"),
+        ("<style>g>rect.h{visibility:hidden}</style><g><rect class='h' width='5' height='5'/></g>", "reason-invisible"),
+        ("<g display='none'><rect display='inline' width='5' height='5'/></g>", "reason-not-displayed"),
+        ("<g opacity='0.0'><rect width='5' height='5'/></g>", "reason-invisible"),
+        ("<rect width='5' height='5' fill='none'/>", "reason-unpainted"),
+        ("<switch><g><path d='M0 0'/></g><rect width='5' height='5'/></switch>", "reason-not-displayed"),
+        ("<switch><rect systemLanguage='de' width='5' height='5'/><g/></switch>", "reason-not-displayed"),
+        ("<g xmlns=''><rect width='5' height='5'/></g>", "reason-name-space"),
+        ("<x:rect xmlns:x='urn:x' width='5' height='5'/>", "reason-name-space"),
+        ("<use href='#nothing'/>", Phrase("reason-link-lost", link="#nothing")),
+        ("<g id='g'><use href='#g'/></g>", Phrase("reason-link-itself", link="#g")),
+        ("<path d='M0 0 L 5 5 Q 3 X 4'/>", Phrase("reason-unread", detail="its path data, at X 4")),
+        ("<path d='M0 0 L 5 5 Q 3 4'/>", Phrase("reason-unread", detail="its path data")),
+        ("<path d='M0 0 H 5 V 5 z # M1 1 H 2 V 2 z'/>", Phrase("reason-unread", detail="its path data, at # M1 1 H 2")),
+        ("<path d='L 5 5 H 9 z'/>", Phrase("reason-unread", detail="its path data, at L 5 5 H 9 ")),
+        ("<polygon points='0,0 5,0 5;5'/>", Phrase("reason-unread", detail="its points")),
+        ("<polyline points='0 0 5 0 5'/>", Phrase("reason-unread", detail="its points")),
+        ("<rect width='2em' height='5'/>", Phrase("reason-unread", detail="its length 2em")),
+        ("<rect width='calc(9px + 1mm)' height='5'/>", Phrase("reason-unread", detail="its length calc(9px + 1mm)")),
+        ("<rect width='5' height='5' fill-opacity='0'/>", "reason-unpainted"),
         ("<g fill='#fff0'><rect width='5' height='5' stroke='red' stroke-width='0'/></g>",
-         "drawn with neither line nor area"),
+         "reason-unpainted"),
         ("<g fill='none' stroke-opacity='0%'><rect width='5' height='5' stroke='red'/></g>",
-         "drawn with neither line nor area"),
-        ("<rect width='5' height='5' fill='rgba(9,9,9,0.0)'/>", "drawn with neither line nor area"),
-        ("<rect width='5' height='5' fill='rgb(9 9 9 / 0%)'/>", "drawn with neither line nor area"),
-        ("<rect width='5' height='5' fill='hsla(9, 9%, 9%, .0)'/>", "drawn with neither line nor area"),
-        ("<rect width='5' height='5' transform='matrix(1 2)'/>", "cannot be read (its transform, matrix(1 2))"),
+         "reason-unpainted"),
+        ("<rect width='5' height='5' fill='rgba(9,9,9,0.0)'/>", "reason-unpainted"),
+        ("<rect width='5' height='5' fill='rgb(9 9 9 / 0%)'/>", "reason-unpainted"),
+        ("<rect width='5' height='5' fill='hsla(9, 9%, 9%, .0)'/>", "reason-unpainted"),
+        (
+            "<rect width='5' height='5' transform='matrix(1 2)'/>",
+            Phrase("reason-unread", detail="its transform, matrix(1 2)"),
+        ),
         (
             "<rect width='5' height='5' transform='scale(2)' style='transform-origin:1px 1px;transform-box:fill-box'/>",
-            "cannot be read (its transform-origin, 1px 1px, fill-box)",
+            Phrase("reason-unread", detail="its transform-origin, 1px 1px, fill-box"),
         ),
-        ("<text>a</text>", "text, convert it to paths"),
+        ("<text>a</text>", "reason-text-to-paths"),
         ("<g transform='scale(1,0)'><rect width='5' height='5'/></g>",
-         "its transform leaves no area, so that nothing is shown"),
+         "reason-no-area"),
     ],
 )  # fmt: skip
-def test_what_is_not_shown_is_left(content: str, why: str) -> None:
+def test_what_is_not_shown_is_left(content: str, why: str | Phrase) -> None:
     reading = reading_of(page(PART + content))
     assert boxes(reading) == [WHERE]
     assert why in left(reading)
@@ -212,35 +216,35 @@ def test_what_is_kept_for_use_is_not_drawn(where: str) -> None:
 @pytest.mark.parametrize(
     ("content", "note"),
     [
-        ('<g clip-path="url(#c)">%s</g>', ["1 shape", "layer 0", "masked", "(10, 90)"]),
+        ('<g clip-path="url(#c)">%s</g>', [Phrase("seen-clipped", count=1, layer="0", place=(10, 90))]),
         # What a browser does not show since it lies outside a frame or the page.
-        ('<svg x="5" width="9" height="9">%s</svg>', ["1 shape", "layer 0", "masked", "(15, 90)"]),
-        ('<svg width="90" height="19">%s</svg>', ["1 shape", "layer 0", "masked", "(10, 90)"]),
+        ('<svg x="5" width="9" height="9">%s</svg>', [Phrase("seen-clipped", count=1, layer="0", place=(15, 90))]),
+        ('<svg width="90" height="19">%s</svg>', [Phrase("seen-clipped", count=1, layer="0", place=(10, 90))]),
         ('<svg width="90" height="20.01">%s</svg>', []),
         ('<svg width="9" height="9" style="overflow:visible">%s</svg>', []),
         ('<g transform="rotate(90)"><svg y="-90" width="90" height="90">%s</svg></g>', []),
         ('<g transform="translate(-15)">%s</g>',
-         ["1 shape", "layer 0", "page", "(-5, 90)"]),
+         [Phrase("seen-outside", count=1, layer="0", place=(-5, 90))]),
         ('<g transform="translate(0 300)">%s</g>',
-         ["1 shape", "layer 0", "page", "(10, -210)"]),
-        ('<g style="mask:url(#c)">%s</g>', ["1 shape", "layer 0", "masked", "(10, 90)"]),
+         [Phrase("seen-outside", count=1, layer="0", place=(10, -210))]),
+        ('<g style="mask:url(#c)">%s</g>', [Phrase("seen-clipped", count=1, layer="0", place=(10, 90))]),
         ('<g stroke="red" stroke-width=".6" transform="scale(2) translate(-5,-5)">%s</g>',
-         ["1 shape", "layer 0", "1 mm", "(10, 90)", "centre line"]),
+         [Phrase("seen-wide", count=1, wide=1, layer="0", place=(10, 90))]),
         ('<g stroke="red" stroke-dasharray="2,1">%s</g>',
-         ["1 entity", "layer 0", "stroke-dasharray", "(10, 90)"]),
+         [Phrase("seen-dashed", count=1, layer="0", dashes="stroke-dasharray", place=(10, 90))]),
         ('<g fill="none">%s</g>',
-         ["1 shape", "layer 0", "area", "(10, 90)"]),
+         [Phrase("seen-unpainted", count=1, layer="0", place=(10, 90))]),
         ("<style>rect ~ rect{stroke:red} a:hover{color:red}</style>%s",
-         ["1 rule", "style sheet", " rect ~ rect:"]),
+         [Phrase("rules-missed", count=1, first="rect ~ rect")]),
         ("<style>rect:odd(x), rect{stroke:red}</style>%s",
-         ["1 rule", "style sheet", " rect:odd(x), rect:"]),
+         [Phrase("rules-missed", count=1, first="rect:odd(x), rect")]),
         ("<style>svg{fill:red; rect{fill:none}} a{cursor:text}</style>%s",
-         ["1 rule", "style sheet", " svg:"]),
+         [Phrase("rules-missed", count=1, first="svg")]),
         ("<style>@media (min-width:9px){rect{fill:red}}</style>%s",
-         ["1 rule", "style sheet", " @media (min-width:9px):"]),
+         [Phrase("rules-missed", count=1, first="@media (min-width:9px)")]),
     ],
 )  # fmt: skip
-def test_what_is_guessed_is_said(content: str, note: list[str]) -> None:
+def test_what_is_guessed_is_said(content: str, note: list[Phrase]) -> None:
     reading = reading_of(page(content % PART))
     assert len(reading.contours) == 1
     assert any(says(told, *note) for told in reading.report.notes) if note else not reading.report.notes
@@ -251,12 +255,12 @@ def test_what_is_guessed_is_said(content: str, note: list[str]) -> None:
 @pytest.mark.parametrize("selector", ["a " * 3000 + "a", "a+" * 300 + "a", "|", "a:is()|"])
 def test_a_selector_that_breaks_its_reader_is_said(selector: str) -> None:
     (note,) = reading_of(page(f"<style>{selector}{{fill:red}}</style>{PART}")).report.notes
-    assert says(note, "1 rule", "style sheet", f" {selector}:")
+    assert says(note, Phrase("rules-missed", count=1, first=selector))
 
 
 @pytest.mark.parametrize("sheet", ["a{" * 3000, "@media screen{" * 3000, ":not(" * 3000 + "a" + ")" * 3000 + "{r:1}"])
 def test_style_sheets_that_are_too_deep(sheet: str) -> None:
-    with pytest.raises(UserError, match=pattern("style sheet", "deep")):
+    with pytest.raises(UserError, match=pattern(Phrase("sheet-too-deep"))):
         reading_of(page(f"<style>{sheet}</style>{PART}"))
 
 
@@ -266,13 +270,13 @@ def test_style_sheets_that_are_too_deep(sheet: str) -> None:
 )
 def test_style_sheets_in_other_files_are_said(before: str, content: str) -> None:
     reading = reading_of(before.encode() + page(content + PART))
-    assert each_says(reading.report.notes, ("style sheet", "more.css"))
+    assert each_says(reading.report.notes, (Phrase("sheet-elsewhere", name="more.css")))
     assert boxes(reading) == [WHERE]
 
 
 def test_a_page_that_is_transformed_itself_is_said() -> None:
     reading = reading_of(page(PART, 'width="100mm" height="100mm" viewBox="0 0 100 100" transform="scale(4)"'))
-    assert each_says(reading.report.notes, ("page", "scale(4)"))
+    assert each_says(reading.report.notes, (Phrase("page-transformed", transform="scale(4)")))
 
 
 @pytest.mark.parametrize(
@@ -322,27 +326,24 @@ def test_an_area_of_a_gradient_that_is_not_there_is_left(fill: str, is_seen: boo
     defs = '<defs><linearGradient id="Ink"><stop stop-color="red"/></linearGradient><g id="g"/></defs>'
     reading = reading_of(page(f'{defs}{PART}<circle cx="70" cy="50" r="20" fill="{fill}"/>'))
     assert len(reading.contours) == 1 + is_seen
-    assert counts_say(left(reading), {} if is_seen else {("line", "area"): 1})
+    assert left(reading) == ({} if is_seen else {"reason-unpainted": 1})
 
 
 def test_animations_are_said() -> None:
     moving = '<g><animateTransform attributeName="transform" type="scale" to="2"/>%s</g><set href="#a" to="1"/>'
     reading = reading_of(page(moving % PART))
     assert boxes(reading) == [WHERE]
-    assert each_says(reading.report.notes, "2 animations")
+    assert each_says(reading.report.notes, Phrase("animations", count=2))
 
 
 def test_parts_of_a_page_without_a_size_are_left() -> None:
     content = '<rect width="50%" height="9"/><svg viewBox="0 0 1 1"><rect width="1" height="1"/></svg>' + PART
     reading = checked(page(content, ""), units="mm")
     assert len(reading.contours) == 1
-    assert counts_say(
-        left(reading),
-        {
-            ("50%", "frame"): 1,
-            ("view box", "frame"): 1,
-        },
-    )
+    assert left(reading) == {
+        Phrase("reason-unread", detail="its length 50%, of a frame without a size"): 1,
+        Phrase("reason-unread", detail="a view box in a frame without a size"): 1,
+    }
 
 
 @pytest.mark.parametrize(
@@ -362,8 +363,8 @@ def test_markers_are_said(style: str, is_said: bool) -> None:
     for content in (line % style, f"<g {style}>{line % ''}</g>"):
         reading = reading_of(page(head + PART + content))
         assert len(reading.contours) == 2
-        note = "1 shape on layer 0 drawn with markers, such as heads of arrows, as at (5, 95): these are not cut"
-        assert [text for text in reading.report.notes if "markers" in text] == [note] * is_said
+        markers = [finding for finding in reading.report.findings if finding.code == "seen-markers"]
+        assert [(one["count"], one["layer"], one.place) for one in markers] == [(1, "0", (5, 95))] * is_said
     assert reading_of(page(f"{head}<g {style}>{PART}</g>")).report.notes == []
     unmarked = line % 'style="marker:none"'
     assert reading_of(page(f"{head}<g {style}>{unmarked}</g>")).report.notes == []
@@ -373,7 +374,7 @@ def test_a_line_of_dashes_within_an_outline_is_left() -> None:
     fold = '<line x1="12" y1="15" x2="28" y2="15" stroke="blue" style="stroke-dasharray:1"/>'
     reading = reading_of(page(PART + fold))
     assert boxes(reading) == [WHERE]
-    assert counts_say(left(reading), {("dashes", "closed outline", "--open all"): 1})
+    assert left(reading) == {"reason-dashed": 1}
     assert len(read(page(PART + fold), "a.svg", Wishes(open="all")).contours) == 2
 
 
@@ -386,5 +387,5 @@ def test_a_curve_that_is_drawn_both_ways_is_drawn_twice() -> None:
 
 
 def test_groups_without_end() -> None:
-    with pytest.raises(UserError, match=pattern("group", 300)):
+    with pytest.raises(UserError, match=pattern(Phrase("svg-too-deep", most=300))):
         read(page("<g>" * 2000 + PART + "</g>" * 2000), "a.svg")

@@ -19,6 +19,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from toolhelp import CAD_TAPE, Run
 
 from skg import tape as tapes
+from skg.messages.finding import Phrase
 from skg.pictures.page import as_it_stands
 from skg.pictures.plot import FEW, Picture, Sheet
 from skg.tape.layout import Placed, place, stop_places
@@ -181,13 +182,13 @@ def nearest_offset(points: list[tuple[float, float]], x: float, y: float) -> tup
 @pytest.mark.parametrize(
     ("arguments", "facts"),
     [
-        (["nothing.3b", "-o", "x.svg"], ["nothing.3b: No such file or directory"]),
-        ([PLATE, "-o", "x.bmp"], ["x.bmp: ", " .svg", " .png", " .pdf", "--format"]),
-        ([PLATE, "-o", "x.svg", "--show-offset"], ["tape", "contour", " .skg"]),
-        ([PLATE, "-o", "/nowhere/x.svg"], ["/nowhere/x.svg: No such file or directory"]),
-        ([PLATE, "-o", "x.svg", "--scale", "1000"], ["picture"]),
-        (["-", "-o", "x.svg"], ["-: ", "tape", "no block"]),
-        ([PLATE_SKG, "-o", "x.svg", "--skg80", "/nowhere"], ["/nowhere: no such file"]),
+        (["nothing.3b", "-o", "x.svg"], [Phrase("system-no-file")]),
+        ([PLATE, "-o", "x.bmp"], ["x.bmp: ", Phrase("picture-name"), Phrase("or-format")]),
+        ([PLATE, "-o", "x.svg", "--show-offset"], [Phrase("no-nominal-contour")]),
+        ([PLATE, "-o", "/nowhere/x.svg"], [Phrase("system-no-file")]),
+        ([PLATE, "-o", "x.svg", "--scale", "1000"], [Phrase("picture-too-large")]),
+        (["-", "-o", "x.svg"], ["-: ", Phrase("nothing-to-draw")]),
+        ([PLATE_SKG, "-o", "x.svg", "--skg80", "/nowhere"], [Phrase("no-such-file")]),
     ],
 )
 def test_bad_wishes(run_program: Run, arguments: list, facts: list[str]) -> None:
@@ -212,7 +213,7 @@ def test_program_with_an_error(run_program: Run, tmp_path: Path) -> None:
     part = tmp_path / "bad.skg"
     part.write_text("10 A=1/0\n20 END\n")
     result = run_program("plot", part, "-o", tmp_path / "x.svg", "--skg80", "reference")
-    assert (result.returncode, result.stderr) == (2, f"skg: {part}: ERR 05 LINE 10, number out of range\n")
+    assert (result.returncode, result.stderr) == (2, f"skg: {part}: ERR 05 LINE 10, {Phrase('meaning-5')}\n")
 
 
 def squares(count: int) -> Picture:

@@ -12,6 +12,7 @@ import pytest
 from facthelp import CARE, each_says, pattern, says
 
 import skg
+from skg.messages.finding import Finding, Phrase
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = sorted((ROOT / "examples").glob("*.skg"))
@@ -64,7 +65,14 @@ ENDS = {
 }
 
 
-@pytest.mark.parametrize(("text", "options", "code"), ENDS.values(), ids=ENDS)
+#: What the host says itself at these ends, in skg80's words.
+OF_THE_HOST = ("no answer", "for ever")
+
+
+@pytest.mark.parametrize(
+    ("text", "options", "code"),
+    [pytest.param(*end, id=name, marks=[pytest.mark.wording] * (name in OF_THE_HOST)) for name, end in ENDS.items()],
+)
 def test_ends(run_program: Program, tmp_path: Path, text: str, options: list[str], code: int) -> None:
     part = tmp_path / "part.skg"
     part.write_bytes(text.encode())
@@ -85,21 +93,23 @@ def test_an_open_route_without_numbers_is_whole(run_program: Program, tmp_path: 
         typed = [line for line in done.stderr.split("\n") if line.startswith(">")]
         assert typed == [">LOAD", *([f">{command}"] if command else []), ">"]
     assert run_program("ref", part).stdout == tape
-    assert each_says(run_program("check", part).stdout, (f"{part}: ", "2 blocks"))
+    assert each_says(
+        run_program("check", part).stdout, (f"{part}: ", Phrase("nothing-wrong"), Phrase("count-blocks", count=2))
+    )
 
 
 def test_a_tape_whose_name_does_not_say_what_it_is(run_program: Program, tmp_path: Path) -> None:
     """As `skg cut` says it: a symmetrical part's tape without drift, and one with under the other's name."""
     part = ROOT / "examples" / "skg06-tangent-slot.skg"
     for rom, name, said in (
-        ("no-drift", "a.3b", "end the tape's name in .nodrift.3b"),
+        ("no-drift", "a.3b", Finding("name-it-without-drift", ending=".nodrift.3b")),
         ("no-drift", "a.nodrift.3b", ""),
         ("standard", "a.3b", ""),
-        ("standard", "a.nodrift.3b", "take care: the name says that the tape is without drift, and it is with"),
+        ("standard", "a.nodrift.3b", Finding("named-without-drift")),
     ):
         done = run_program("run", part, "--rom", rom, "-o", tmp_path / name)
         assert done.returncode == 0, done.stderr
-        assert said in done.stderr and (bool(said) or ".nodrift.3b" not in done.stderr), (rom, name, done.stderr)
+        assert str(said) in done.stderr and (bool(said) or ".nodrift.3b" not in done.stderr), (rom, name, done.stderr)
 
 
 def test_answers_and_output(run_program: Program, tmp_path: Path) -> None:
@@ -138,11 +148,14 @@ def test_roms(run_program: Program, rom: str, options: list[str]) -> None:
 @pytest.mark.parametrize(
     ("words", "facts"),
     [
-        (["none.skg"], ("none.skg: No such file",)),
-        (["examples/wrench.skg", "--rom", "none.bin"], ("none.bin: No such file",)),
-        (["examples/wrench.skg", "--rom", "roms/skg.hex/"], ("roms/skg.hex/: Not a directory",)),
-        (["examples/wrench.skg", "--ram", "57"], ("--ram", 57, "2<=", "<=56", "skg run --help")),
-        (["-", "--input", "-"], ("program", "answers", "standard input")),
+        (["none.skg"], ("none.skg: ", Phrase("system-no-file"))),
+        (["examples/wrench.skg", "--rom", "none.bin"], ("none.bin: ", Phrase("system-no-file"))),
+        (["examples/wrench.skg", "--rom", "roms/skg.hex/"], ("roms/skg.hex/: ", Phrase("system-no-folder"))),
+        (
+            ["examples/wrench.skg", "--ram", "57"],
+            ("--ram", 57, "2<=", "<=56", Phrase("wrong-usage", command="skg run")),
+        ),
+        (["-", "--input", "-"], (Phrase("program-and-answers"),)),
     ],
 )
 def test_wrong_usage(
@@ -158,7 +171,9 @@ def test_a_machine_that_halts(run_program: Program, tmp_path: Path) -> None:
     rom = tmp_path / "halt.bin"
     rom.write_bytes(b"\x76" * 8192)
     done = run_program("run", ROOT / "examples" / "wrench.skg", "--rom", rom)
-    assert done.returncode == 1 and each_says(done.stderr, (f"skg: {ROOT}/examples/wrench.skg: ", "halted", "0000"))
+    assert done.returncode == 1 and each_says(
+        done.stderr, (f"skg: {ROOT}/examples/wrench.skg: ", Phrase("board-halted", address=0))
+    )
 
 
 def test_half_a_rom(run_program: Program, tmp_path: Path) -> None:
@@ -171,17 +186,19 @@ def test_half_a_rom(run_program: Program, tmp_path: Path) -> None:
 def test_a_rom_for_another_board(run_program: Program) -> None:
     done = run_program("run", ROOT / "examples" / "wrench.skg", "--rom", ROMS / "skg-8251.bin")
     assert done.returncode == by_skg80("--rom", ROMS / "skg-8251.bin", "examples/wrench.skg").returncode == 2
-    assert says(done.stderr.splitlines()[-1], "ROM", "board")
+    assert says(done.stderr.splitlines()[-1], Phrase("port-not-set-up", port=17))
     done = run_program("run", ROOT / "examples" / "wrench.skg", "--rom", ROMS / "skg-rc2014.bin")
     assert done.returncode == by_skg80("--rom", ROMS / "skg-rc2014.bin", "examples/wrench.skg").returncode == 2
-    assert says(done.stderr, "skg: ", "ROM", "board")
+    assert says(done.stderr, "skg: ", Phrase("board-mute"))
 
 
 def test_a_rom_with_a_hole(run_program: Program, tmp_path: Path) -> None:
     rom = tmp_path / "hole.hex"
     rom.write_text(":0300000000000000FD\n:00000001FF\n".replace("0000000000FD", "00000000FD"))
     done = run_program("run", ROOT / "examples" / "wrench.skg", "--rom", rom)
-    assert done.returncode == 2 and each_says(done.stderr, (f"skg: {ROOT}/examples/wrench.skg: ", "0003", "ROM"))
+    assert done.returncode == 2 and each_says(
+        done.stderr, (f"skg: {ROOT}/examples/wrench.skg: ", Phrase("no-code", address=3))
+    )
 
 
 # The board ------------------------------------------------------------------------------------------------
@@ -220,13 +237,13 @@ def test_board_breaks_off_input_without_answers() -> None:
 def test_board_says_why_it_stopped() -> None:
     board = skg.Board(max_cycles=10_000_000)
     board.load("10 GOTO 10\n")
-    with pytest.raises(skg.BoardStopped, match=pattern("10000000 cycles")) as stopped:
+    with pytest.raises(skg.BoardStopped, match=pattern(Phrase("cycles-used-up", cycles=10000000))) as stopped:
         board.run()
     assert stopped.value.reason == "cycles"
     board.machine.press("\x03")
     assert board.machine.run() == "prompt"
     board.type("10 INPUT A")
-    with pytest.raises(skg.BoardStopped, match="INPUT asks") as stopped:
+    with pytest.raises(skg.BoardStopped, match=pattern(Phrase("no-answer"))) as stopped:
         board.type("RUN")
     assert stopped.value.reason == "input"
 
@@ -244,7 +261,7 @@ def test_board_shows_the_paper_as_it_is_printed() -> None:
 
 
 def test_board_takes_ascii_alone() -> None:
-    with pytest.raises(skg.errors.UserError, match=pattern("'é'", "ASCII")):
+    with pytest.raises(skg.errors.UserError, match=pattern(Phrase("not-ascii-typed", character="'é'"))):
         skg.Board().type("REM é")
 
 
@@ -258,6 +275,7 @@ def test_one_name_of_a_rom(spelling: str) -> None:
         RomName(("no-drift", "standard")).convert("tty", None, None)
 
 
+@pytest.mark.wording
 def test_meaning_of_errors() -> None:
     """The tools' meaning of an error is the beginning of its row in the table of language.md, section 6."""
     from skg.machine.board import ERRORS, meaning
@@ -269,6 +287,7 @@ def test_meaning_of_errors() -> None:
         assert number == 10 or rows[f"{number:02d}"].startswith(str(meaning(number)))
 
 
+@pytest.mark.wording
 def test_one_wording_of_error_7() -> None:
     """The manual, the page and `skg cut` say it as the specification does: of any arc, and of a cutter too."""
     from skg.cutting import refusal
@@ -282,9 +301,11 @@ def test_one_wording_of_error_7() -> None:
 
 #: Lines without numbers in front of one with a number; whether their last leg is cut.
 MIXED = {
-    "CUT (0,0),(5,0),(5,5)\n\n10 A=1\n": ("line 1", "line 3"),
-    "10 A=1\nFROM (1,1)\ncut (0,0),(5,0)\nCUT (5,5)": ("line 3", "RUN"),
-    "FIT (0,0),0\nFIT (5,0)\nFIT (5,5)\r\n10 A=1\n": ("line 1", "line 4"),
+    "CUT (0,0),(5,0),(5,5)\n\n10 A=1\n": (Phrase("route-given-up", line=1, by=Phrase("line-number", line=3)),),
+    "10 A=1\nFROM (1,1)\ncut (0,0),(5,0)\nCUT (5,5)": (Phrase("route-given-up", line=3, by="RUN"),),
+    "FIT (0,0),0\nFIT (5,0)\nFIT (5,5)\r\n10 A=1\n": (
+        Phrase("route-given-up", line=1, by=Phrase("line-number", line=4)),
+    ),
     "CUT (0,0),(5,0),(5,5)\nFROM (0,0)\n10 A=1\n": (),
     "CUT (0,0),(5,0),(5,5)\nEND\n10 A=1\n": (),
     "CUT (0,0),(5,0),(5,5),(0,0)\nBACK\n10 A=1\n": (),
@@ -310,7 +331,8 @@ def test_every_command_says_what_is_given_up(run_program: Program, tmp_path: Pat
     for words in (["run"], ["ref"], ["sim"], ["gcode"], ["plot", "-o", tmp_path / "part.svg"]):
         done = run_program(*words, part)
         assert done.returncode == 0
-        assert sum(says(line, "line 3") for line in done.stderr.splitlines()) == 1, words
+        given_up = Phrase("route-given-up", line=1, by=Phrase("line-number", line=3))
+        assert sum(says(line, given_up) for line in done.stderr.splitlines()) == 1, words
 
 
 def test_a_broken_run_leaves_its_tape_without_an_end(run_program: Program, tmp_path: Path) -> None:
@@ -328,9 +350,9 @@ TAKE_PROGRAMS = (["run"], ["check"], ["ref"], ["sim"], ["dxf"], ["gcode"])
 @pytest.mark.parametrize(
     ("bad", "facts"),
     [
-        ("10 REM\r\n20 CUT O,\x03(1,0)\r\n", ("line 2", "ctrl-C")),
-        ("10 REM\r20 CUT O,\x13(1,0)\r", ("line 2", "ctrl-S")),
-        ("10 REM\n20 REM é\n30 CUT O,(1,0)\n", ("line 2", "é", "ASCII")),
+        ("10 REM\r\n20 CUT O,\x03(1,0)\r\n", (Phrase("ctrl-c", line=2, column=10),)),
+        ("10 REM\r20 CUT O,\x13(1,0)\r", (Phrase("ctrl-s", line=2, column=10),)),
+        ("10 REM\n20 REM é\n30 CUT O,(1,0)\n", (Phrase("not-ascii", character="'é'", line=2, column=8),)),
     ],
     ids=["ctrl-C", "ctrl-S", "letter"],
 )
@@ -345,10 +367,18 @@ def test_characters_that_no_program_has(run_program: Program, tmp_path: Path, ba
         lines.add(done.stderr)
     assert len(lines) == 1
     theirs = by_skg80(part)
-    assert (theirs.returncode, theirs.stderr) == (2, lines.pop().replace("skg: ", "skg80: ", 1))
+    assert theirs.returncode == 2 and len(theirs.stderr.splitlines()) == 1
     part.write_bytes(b"10 CUT O,(1,0)\n\x1a" + bad.encode())
     assert all(run_program(*words, part).returncode == 0 for words in TAKE_PROGRAMS)
     assert by_skg80(part).returncode == 0
+
+
+@pytest.mark.wording
+@pytest.mark.parametrize("bad", [b"20 CUT O,\x03(1,0)\n", b"20 CUT O,\x13(1,0)\n", "20 REM é\n".encode()])
+def test_skg80_has_the_same_words(run_program: Program, tmp_path: Path, bad: bytes) -> None:
+    part = tmp_path / "part.skg"
+    part.write_bytes(bad)
+    assert by_skg80(part).stderr == run_program("run", part).stderr.replace("skg: ", "skg80: ", 1)
 
 
 def test_what_means_nothing_in_a_program(run_program: Program, tmp_path: Path) -> None:

@@ -20,6 +20,7 @@ from toolhelp import ROOT, Run, timed
 
 from skg import tape as tapes
 from skg.errors import UserError
+from skg.messages.finding import Phrase
 from skg.tape import Block, arc_block, line_block, start_quadrant
 from skg.tape.simulation import simulate
 
@@ -187,7 +188,7 @@ def test_distance_from_the_path_with_drift(arc: tuple, dx: int, dy: int) -> None
 def test_circle_too_small_to_count() -> None:
     block = arc_block((1, 0), (1, 0), 1)
     assert block.j == 4
-    with pytest.raises(UserError, match=pattern("block", re.compile(r"B\d+B\d+B\d+G"))):
+    with pytest.raises(UserError, match=pattern(Phrase("never-ends"), re.compile(r"B\d+B\d+B\d+G"))):
         run_block(block)
 
 
@@ -212,8 +213,9 @@ def test_cad_tape(run: Run, cad_tape: Path) -> None:
     assert figures["gap"] == [-220000, 70102]
     assert figures["closed"] is False
     assert run("sim", cad_tape, "--strict-close").exit_code == 1
-    closing = "open by -220000, 70102 µm (as programmed: open by -220000, 70100 µm)"
-    assert closing in run("sim", cad_tape).output
+    closing = Phrase("path-open", dx=-220000, dy=70102)
+    programmed = Phrase("as-programmed", closing=Phrase("path-open", dx=-220000, dy=70100))
+    assert says(run("sim", cad_tape).output, Phrase("sim-path", closing=closing, more=programmed))
 
 
 def test_closing_and_routes(run: Run) -> None:
@@ -222,11 +224,11 @@ def test_closing_and_routes(run: Run) -> None:
     data = tapes.to_bytes([*square, stop, line_block(5000, 100), stop, *square])
     result = run("sim", "-", stdin=data)
     assert result.exit_code == 0
-    assert "9 blocks, 2 stops" in result.output
-    assert says(result.output, "path ", "0 µm")
-    assert says(result.output, "blocks 5-5", "5000, 100 µm")
-    assert says(result.output, "blocks 1-4", "0 µm")
-    assert says(result.output, "blocks 6-9", "0 µm")
+    assert says(result.output, Phrase("sim-blocks", count=9, stops=Phrase("and-stops", count=2)))
+    assert says(result.output, Phrase("sim-path"))
+    assert says(result.output, Phrase("sim-route", first=5, last=5), Phrase("sim-move", by="5000, 100"))
+    assert says(result.output, Phrase("sim-route", first=1, last=4, what=Phrase("path-closes")))
+    assert says(result.output, Phrase("sim-route", first=6, last=9, what=Phrase("path-closes")))
     assert run("sim", "-", "--strict-close", stdin=tapes.to_bytes(square)).exit_code == 0
 
 

@@ -18,6 +18,7 @@ from test_cut import start_of
 from toolhelp import Run
 
 from skg.errors import UserError
+from skg.messages.finding import Phrase
 
 #: The offset of the last pass, the kerf on each side of the wire's path.
 R = 0.1
@@ -180,8 +181,8 @@ def test_the_report_says_how_proud(run: Run, tmp_path: Path) -> None:
         "--tab",
         2,
     ]
-    assert says(run(*words, "--quiet").stderr, "take care", "0.06 mm proud", "--tab-passes")
-    assert says(run(*words, "--tab-passes", "0.02", "--quiet").stderr, "0.02 mm proud")
+    assert says(run(*words, "--quiet").stderr, Phrase("tabs-proud", height=0.06), "--tab-passes")
+    assert says(run(*words, "--tab-passes", "0.02", "--quiet").stderr, Phrase("tabs-proud", height=0.02))
     assert "proud" not in run(*words, "--tab-passes", "0.02,0").stderr
 
 
@@ -234,10 +235,34 @@ def test_places_of_tabs(run: Run, tmp_path: Path) -> None:
     inner = '[[contour]]\nlayer = "die"\nkind = "opening"\nat = [10, 10]\nsize = [20, 10]\n'
     program = tmp_path / "a.skg"
     for text, told in (
-        (outer + "tab = 2\ntabs = [[5, 0], [40, 10], [20, 30]]\n", ["contour 2", "3 tabs of 2 mm"]),
-        (inner + "tab = 3\n", ["contour 1, opening", "tab 3 mm"]),
-        ('[[layer]]\nname = "die"\nslug_tab = 3\n', ["contour 1, opening", "tab 3 mm"]),
-        ("[default]\nslug_tab = 3\n", ["contour 1, opening", "tab 3 mm"]),
+        (
+            outer + "tab = 2\ntabs = [[5, 0], [40, 10], [20, 30]]\n",
+            [Phrase("contour-numbers", numbers=(2,)), Phrase("with-tab", tab=2, count=3)],
+        ),
+        (
+            inner + "tab = 3\n",
+            [
+                Phrase("contour-numbers", count=1, numbers=(1,)),
+                Phrase("kind-opening", count=1),
+                Phrase("with-tab", count=1, tab=3),
+            ],
+        ),
+        (
+            '[[layer]]\nname = "die"\nslug_tab = 3\n',
+            [
+                Phrase("contour-numbers", count=1, numbers=(1,)),
+                Phrase("kind-opening", count=1),
+                Phrase("with-tab", count=1, tab=3),
+            ],
+        ),
+        (
+            "[default]\nslug_tab = 3\n",
+            [
+                Phrase("contour-numbers", count=1, numbers=(1,)),
+                Phrase("kind-opening", count=1),
+                Phrase("with-tab", count=1, tab=3),
+            ],
+        ),
     ):
         job.write_text(head + text)
         assert says(run("cut", job, "-o", tape, "--program", program).stderr, *told)
@@ -253,18 +278,18 @@ def test_places_of_tabs(run: Run, tmp_path: Path) -> None:
     for place in ((5, 0), (40, 10), (20, 30)):
         assert min(middle.distance(Point(place)) for middle in middles) < R + 2 * LIMIT
     for bad, fact in (
-        ("tab = 2\ntabs = [[5, 0], [6, 0]]\n", "between two"),
-        ("tab = 2\ntabs = [[5, 0], [40, 10]]\nentry = [1, 0]\n", "entry"),
-        ("tab = 2\npasses = [0.05, 0.01]\ntab_passes = [0]\n", "passes"),
-        ("tab = 2\noverlap = 90\n", "overlap"),
-        ("tab = 0.2\n", "would not hold"),
-        ("tab = 2\ntabs = []\n", "tabs"),
-        ("slug_tab = 2\n", "slug_tab"),
+        ("tab = 2\ntabs = [[5, 0], [6, 0]]\n", Phrase("tabs-crowded", tab=2)),
+        ("tab = 2\ntabs = [[5, 0], [40, 10]]\nentry = [1, 0]\n", Phrase("entry-and-tabs")),
+        ("tab = 2\npasses = [0.05, 0.01]\ntab_passes = [0]\n", Phrase("tab-passes-beyond", first=0.05, last=0.01)),
+        ("tab = 2\noverlap = 90\n", Phrase("overlap-too-long", overlap=90, cut=138)),
+        ("tab = 0.2\n", Phrase("tab-holds-no-part", tab=0.2)),
+        ("tab = 2\ntabs = []\n", Phrase("wrong-value", key="tabs")),
+        ("slug_tab = 2\n", Phrase("unknown-key-near", key="slug_tab")),
     ):
         job.write_text(head + outer + bad)
-        assert fact in run_failing(run, "cut", job, "-o", tape)
+        assert says(run_failing(run, "cut", job, "-o", tape), fact)
     with_tab = run("cut", path, "-o", tape, "--offset", R, "--slug-tab", 1, "--side", "outside").stderr
-    assert says(with_tab, "take care", "slug", "tab")
+    assert says(with_tab, Phrase("no-slug-has-tab"), "tab")
 
 
 @pytest.mark.parametrize("lead", ["perpendicular", "arc"])
@@ -284,4 +309,7 @@ def test_overlap(run: Run, tmp_path: Path, lead: str) -> None:
         assert along == pytest.approx(ring.length + over, abs=near)
         assert path.coords[0] == pytest.approx(path.coords[-1], abs=0.0015)
     assert metal.proud().area < 1e-4
-    assert says(run("cut", saved(page, tmp_path), "-o", tmp_path / "a.3b", "--overlap", over).stderr, "overlap 1.5 mm")
+    assert says(
+        run("cut", saved(page, tmp_path), "-o", tmp_path / "a.3b", "--overlap", over).stderr,
+        Phrase("with-overlap", overlap=1.5),
+    )

@@ -15,6 +15,7 @@ from toolhelp import CAD_TAPE, ROOT, Run
 
 from skg import tape as tapes
 from skg.errors import UserError
+from skg.messages.finding import Phrase
 from skg.ref import drift
 from skg.ref import tape as ref_tape
 from skg.ref.real import Real
@@ -61,7 +62,7 @@ def test_geometry_gives_the_block_again(block: Block) -> None:
 
 
 def test_too_large_to_write() -> None:
-    with pytest.raises(UserError, match=pattern("line 1", "8 digits")):
+    with pytest.raises(UserError, match=pattern(Phrase("line-number", line=1), Phrase("number-too-long", most=8))):
         tapes.to_bytes([arc_block((30_000_000, 0), (30_000_000, 0), 1)])
 
 
@@ -75,34 +76,103 @@ def test_cad_tape() -> None:
 @pytest.mark.parametrize(
     ("text", "facts"),
     [
-        ("B1B1B1GYL1\r\n", ["block 2, column 1", "DD", "end"]),
-        ("B1B1B1GYL1\r\nDD", ["block 2, column 3", "CR LF", "end"]),
-        ("B1B1B1GYL1\r\nDD\r\nB1", ["block 1, column 1", "DD", "'B'"]),
-        ("B1B1B1GYL1\nDD\n", ["block 1, column 1", "CR LF", "end", "LF"]),
-        ("b1B1B1GYL1\r\nDD\r\n", ["block 1, column 1", "B", "'b'"]),
-        ("BB1B1GYL1\r\nDD\r\n", ["block 1, column 2", "'B'"]),
-        ("B1B123456789B1GYL1\r\nDD\r\n", ["block 1, column 4", "y", "9 digits", "8"]),
-        ("B1B1B01GYL1\r\nDD\r\n", ["block 1, column 6", "J", "zero"]),
-        ("B1B1B1GZL1\r\nDD\r\n", ["block 1, column 8", "X", "Y", "'Z'"]),
-        ("B1B1B1GYL5\r\nDD\r\n", ["block 1, column 9", "L1", "L4", "NR1…NR4 or SR1…SR4", "'L'"]),
-        ("B1B1B1GYL1 \r\nDD\r\n", ["block 1, column 11", "end", "block", "' '"]),
-        ("B1B1B1GYL1\x07\r\nDD\r\n", ["block 1, column 11", "end", "block", "07H"]),
-        ("\r\nDD\r\n", ["block 1, column 1", "B", "end"]),
-        ("B0B0B1GYL1\r\nDD\r\n", ["block 1, column 1", "x", "0"]),
-        ("B0B5B5GYL1\r\nDD\r\n", ["block 1, column 1", "L1", "x > 0", "quadrant", "x"]),
-        ("B5B0B5GXL2\r\nDD\r\n", ["block 1, column 1", "L2", "y > 0", "quadrant", "x"]),
-        ("B7B5B6GXL1\r\nDD\r\n", ["block 1, column 1", "J = 6", "x", "7"]),
-        ("B7B5B9GXL1\r\nDD\r\n", ["block 1, column 1", "J = 9", "x", "7"]),
-        ("B7B5B7GYL1\r\nDD\r\n", ["block 1, column 1", "GY", "axis", "expected GX"]),
-        ("B5B5B5GXL1\r\nDD\r\n", ["block 1, column 1", "GX", "axis", "expected GY"]),
-        ("B5B5B5GYL2\r\nDD\r\n", ["block 1, column 1", "GY", "axis", "expected GX"]),
-        ("B0B500B9GYNR1\r\nDD\r\n", ["block 1, column 1", "NR1", "x > 0", "quadrant", "x"]),
-        ("B500B0B9GYSR1\r\nDD\r\n", ["block 1, column 1", "SR1", "y > 0", "quadrant", "x"]),
-        ("B500B0B0GYNR1\r\nDD\r\n", ["block 1, column 1", "J", "0"]),
-        ("B500B0B2005GYNR1\r\nDD\r\n", ["block 1, column 1", "J = 2005", "circle", "2000"]),
+        (
+            "B1B1B1GYL1\r\n",
+            [
+                Phrase("at-block", block=2, column=1),
+                Phrase("expected-found", expected="DD", found=Phrase("end-of-tape")),
+            ],
+        ),
+        (
+            "B1B1B1GYL1\r\nDD",
+            [
+                Phrase("at-block", block=2, column=3),
+                Phrase("expected-found", expected="CR LF", found=Phrase("end-of-tape")),
+            ],
+        ),
+        (
+            "B1B1B1GYL1\r\nDD\r\nB1",
+            [Phrase("at-block", block=1, column=1), Phrase("nothing-after", end="DD", found="'B'")],
+        ),
+        ("B1B1B1GYL1\nDD\n", [Phrase("at-block", block=1, column=1), Phrase("bare-lf")]),
+        (
+            "b1B1B1GYL1\r\nDD\r\n",
+            [Phrase("at-block", block=1, column=1), Phrase("expected-found", expected="B", found="'b'")],
+        ),
+        (
+            "BB1B1GYL1\r\nDD\r\n",
+            [
+                Phrase("at-block", block=1, column=2),
+                Phrase("expected-found", expected=Phrase("digits-of", name="x"), found="'B'"),
+            ],
+        ),
+        (
+            "B1B123456789B1GYL1\r\nDD\r\n",
+            [Phrase("at-block", block=1, column=4), Phrase("too-many-digits", name="y", digits=9, most=8)],
+        ),
+        ("B1B1B01GYL1\r\nDD\r\n", [Phrase("at-block", block=1, column=6), Phrase("leading-zeros", name="J")]),
+        (
+            "B1B1B1GZL1\r\nDD\r\n",
+            [Phrase("at-block", block=1, column=8), Phrase("expected-found", expected=Phrase("x-or-y"), found="'Z'")],
+        ),
+        (
+            "B1B1B1GYL5\r\nDD\r\n",
+            [
+                Phrase("at-block", block=1, column=9),
+                Phrase("expected-found", expected=Phrase("codes-of-blocks"), found="'L'"),
+            ],
+        ),
+        (
+            "B1B1B1GYL1 \r\nDD\r\n",
+            [
+                Phrase("at-block", block=1, column=11),
+                Phrase("expected-found", expected=Phrase("end-of-block"), found="' '"),
+            ],
+        ),
+        (
+            "B1B1B1GYL1\x07\r\nDD\r\n",
+            [
+                Phrase("at-block", block=1, column=11),
+                Phrase("expected-found", expected=Phrase("end-of-block"), found=Phrase("byte", byte=7)),
+            ],
+        ),
+        (
+            "\r\nDD\r\n",
+            [
+                Phrase("at-block", block=1, column=1),
+                Phrase("expected-found", expected="B", found=Phrase("end-of-line")),
+            ],
+        ),
+        ("B0B0B1GYL1\r\nDD\r\n", [Phrase("at-block", block=1, column=1), Phrase("block-nowhere")]),
+        (
+            "B0B5B5GYL1\r\nDD\r\n",
+            [Phrase("at-block", block=1, column=1), Phrase("block-quadrant", word="L1", side="x")],
+        ),
+        (
+            "B5B0B5GXL2\r\nDD\r\n",
+            [Phrase("at-block", block=1, column=1), Phrase("block-quadrant", word="L2", side="y")],
+        ),
+        ("B7B5B6GXL1\r\nDD\r\n", [Phrase("at-block", block=1, column=1), Phrase("line-j-less", j=6, longer=7)]),
+        ("B7B5B9GXL1\r\nDD\r\n", [Phrase("at-block", block=1, column=1), Phrase("line-j-more", j=9, longer=7)]),
+        ("B7B5B7GYL1\r\nDD\r\n", [Phrase("at-block", block=1, column=1), Phrase("line-axis", axis="Y", expected="X")]),
+        ("B5B5B5GXL1\r\nDD\r\n", [Phrase("at-block", block=1, column=1), Phrase("line-axis", axis="X", expected="Y")]),
+        ("B5B5B5GYL2\r\nDD\r\n", [Phrase("at-block", block=1, column=1), Phrase("line-axis", axis="Y", expected="X")]),
+        (
+            "B0B500B9GYNR1\r\nDD\r\n",
+            [Phrase("at-block", block=1, column=1), Phrase("block-quadrant", word="NR1", side="x")],
+        ),
+        (
+            "B500B0B9GYSR1\r\nDD\r\n",
+            [Phrase("at-block", block=1, column=1), Phrase("block-quadrant", word="SR1", side="y")],
+        ),
+        ("B500B0B0GYNR1\r\nDD\r\n", [Phrase("at-block", block=1, column=1), Phrase("arc-j-zero")]),
+        (
+            "B500B0B2005GYNR1\r\nDD\r\n",
+            [Phrase("at-block", block=1, column=1), Phrase("arc-j-beyond", j=2005, full=2000)],
+        ),
         (
             "B500B0B490GYNR1\r\nDD\r\n",
-            ["block 1, column 1", "J = 490", "y = 490", "expected GX"],
+            [Phrase("at-block", block=1, column=1), Phrase("arc-axis", j=490, end=490, side="y", expected="X")],
         ),
     ],
 )
@@ -111,7 +181,8 @@ def test_findings(run: Run, text: str, facts: list[str]) -> None:
     assert result.exit_code == 1
     assert says(result.output, f"-: {facts[0]}: ", *facts)
     found = json.loads(run("check", "--json", "-", stdin=text.encode("latin-1")).output)
-    assert f"block {found[0]['block']}, column {found[0]['column']}: {found[0]['message']}" in result.output
+    place = Phrase("at-block", block=found[0]["block"], column=found[0]["column"])
+    assert f"{place}: {found[0]['message']}" in result.output
 
 
 def test_all_findings_at_once(run: Run) -> None:
@@ -122,7 +193,9 @@ def test_all_findings_at_once(run: Run) -> None:
 def test_sound_tapes_pass(run: Run, cad_tape: Path) -> None:
     result = run("check", cad_tape, cad_tape)
     assert result.exit_code == 0
-    assert each_says(result.output, *[(f"{cad_tape}: ", "5 blocks")] * 2)
+    assert each_says(
+        result.output, *[(f"{cad_tape}: ", Phrase("nothing-wrong", size=Phrase("count-blocks", count=5)))] * 2
+    )
     assert run("check", "-", stdin=b"\0\0\0" + CAD_TAPE + b"\0\0").exit_code == 0
 
 
@@ -134,11 +207,13 @@ def filled(data: bytes) -> bytes:
 def test_ctrl_zs_of_cpm_are_no_finding(run: Run) -> None:
     """They are the file's end, and said as a note; what stands behind them is not."""
     result = run("check", "-", stdin=filled(CAD_TAPE))
-    assert result.exit_code == 0 and each_says(result.stdout, ("-: ", "5 blocks"))
-    assert each_says(result.stderr, ("skg: -: ", "ctrl-Zs", "CP/M"))
+    assert result.exit_code == 0 and each_says(
+        result.stdout, ("-: ", Phrase("nothing-wrong"), Phrase("count-blocks", count=5))
+    )
+    assert each_says(result.stderr, ("skg: -: ", Phrase("ctrl-zs")))
     assert run("check", "-", stdin=CAD_TAPE[:-4] + b"\x1a" * 30).exit_code == 1
     result = run("check", "-", stdin=CAD_TAPE + b"\x1a\x1aB1")
-    assert says(result.stdout, "DD", "1AH")
+    assert says(result.stdout, Phrase("nothing-after", end="DD", found=Phrase("byte", byte=0x1A)))
 
 
 @pytest.mark.parametrize("words", [
