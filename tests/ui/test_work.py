@@ -308,7 +308,13 @@ def test_cut(page: Page, tmp_path: Path) -> None:
     assert page.get(f"/api/run/{number}/tape").body == tape.read_bytes()
     assert page.get(f"/api/run/{number}/program").body == program.read_bytes()
     assert [english(line) for line in run["result"]["lines"]] == said
-    assert run["result"]["blocks"] == tape.read_bytes().count(b"G")
+    blocks = tape.read_bytes().count(b"G")
+    texts = {line["code"]: line["text"] for line in run["result"]["lines"]}
+    for language, figures in enumerate(run["result"]["figures"]):
+        off, *others = figures.split(" · ")
+        assert re.search(r"[\d.]+ µm", off)[0] in texts["checked"][language]
+        assert str(blocks) in others[0] and len(others) == 4
+        assert all(figure in texts["cut-length"][language] for figure in others), (others, texts["cut-length"])
     assert run["result"]["tape_name"] == "plate.nodrift.3b"
     assert page.get(f"/api/run/{number}/sheet").body.startswith(b"%PDF")
     assert b"<svg" in page.get(f"/api/run/{number}/sheet.svg").body

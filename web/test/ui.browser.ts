@@ -810,7 +810,7 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
       await type(page, `field-${id}`, text as string);
     await cut(page);
     // (100 mm around and 3 mm of lead, forth and back, 10 mm thick)
-    await says(page, "#outcome", /106\.0 mm · 27 min · 1060 mm² · 18\.40 元$/);
+    await says(page, "#outcome", /106\.0 mm · 26 min 30 s · 1060 mm² · 18\.40 元$/);
     await page.click("#tab-report");
     await says(page, "#report", /price 18\.40 元: 15\.90 for 1060 mm², 2\.50 for 1 start hole/);
     await page.click("#tab-sheet");
@@ -981,6 +981,41 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await value(page, "field-about-x", "0");
     await settled(page);
     assert.deepEqual(said, []);
+    await context.close();
+  });
+
+  test("the sheet is seen as a whole, and printed as one page with nothing else; the outcome has the report's figures", async () => {
+    const { url } = await start();
+    const { page, context } = await visit(url, { viewport: LOW });
+    await drawn(page);
+    await type(page, "field-wire", "0.18");
+    await cut(page);
+    const outcome = (await page.textContent("#outcome")) ?? "";
+    await page.click("#tab-report");
+    const report = (await page.textContent("#report")) ?? "";
+    assert.ok(outcome.split(" · ").length === 5);
+    for (const figure of outcome.split(" · ").slice(1)) assert.ok(report.includes(figure), figure);
+    await page.click("#tab-sheet");
+    await page.waitForSelector("#sheet img");
+    await page.waitForFunction(() => (document.querySelector("#sheet img") as HTMLImageElement).naturalWidth > 0);
+    // (A4 on its side: all of it is in sight, and it has most of the room)
+    const seen = await page.locator("#sheet img").boundingBox();
+    assert.ok(seen && seen.height > 450 && seen.y + seen.height <= LOW.height, JSON.stringify(seen));
+    assert.equal(await page.evaluate(() => typeof window.print), "function");
+    await page.evaluate(() => {
+      window.print = () => document.body.setAttribute("data-printed", "");
+    });
+    await page.getByRole("button", { name: "Print" }).click();
+    await page.waitForSelector("[data-printed]");
+    const pdf = (await page.pdf({ preferCSSPageSize: true })).toString("latin1");
+    assert.equal(pdf.match(/\/Type *\/Page\b/g)?.length, 1);
+    await page.emulateMedia({ media: "print" });
+    const parts = await page.evaluate(() =>
+      [...document.querySelectorAll("body *")]
+        .filter((each) => each.checkVisibility() && each.getBoundingClientRect().width)
+        .map(({ id, tagName }) => id || tagName),
+    );
+    assert.deepEqual(parts, ["MAIN", "results", "drawer", "sheet", "IMG"]);
     await context.close();
   });
 

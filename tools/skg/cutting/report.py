@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from skg.checking.follow import Stretch
 from skg.checking.wire_path import LIMIT
+from skg.cutting.cost import Cost
 from skg.cutting.holes import holes_of
 from skg.cutting.ladder import CutResult
 from skg.cutting.manner import manners, numbered, stops
@@ -76,6 +77,20 @@ def _facts(result: CutResult, offset: float) -> Iterator[Finding]:
     yield Finding("checked", off=1000 * result.checked.off, closing=closing)
     if drift:
         yield Finding("drift", drift=1000 * drift)
+
+
+def figures(result: CutResult, cost: Cost) -> Phrase:
+    """The figures of the report in one line."""
+    return Phrase(
+        "outcome",
+        off=1000 * result.checked.off,
+        blocks=Phrase("count-blocks", count=len(result.tape.blocks)),
+        stops=Phrase("count-stops", count=len(result.tape.stops)),
+        length=result.cut_length,
+        time=duration(result.seconds),
+        area=Phrase("outcome-area", area=cost.area) if cost.area else None,
+        price=Phrase("outcome-price", price=cost.price) if cost.price else None,
+    )
 
 
 def pace(machine: MachineSetup) -> Phrase:

@@ -13,6 +13,7 @@ from zlib import crc32
 import numpy as np
 import shapely
 
+from skg.cutting.report import figures
 from skg.errors import UserError
 from skg.geometry.contour import Edge
 from skg.geometry.offset import NoRoom
@@ -317,13 +318,7 @@ def result(cut: CutDrawing) -> dict[str, Any]:
     made, back = cut.result, cut.placement.back
     return {
         "lines": [line(entry) for entry in cut.findings],
-        "blocks": len(made.tape.blocks),
-        "stops": len(made.tape.stops),
-        "length": round(made.cut_length, _LENGTH),
-        "seconds": round(made.seconds, 1),
-        "area": cut.cost.area or None,
-        "price": cut.cost.price,
-        "off_um": round(1000 * made.checked.off, 3),
+        "figures": said(figures(made, cut.cost)),
         "start": place(made.routes[0].start),
         "back": [*back.matrix, *back.origin, *back.at],
     }

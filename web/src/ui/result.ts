@@ -142,7 +142,10 @@ export class Results {
       const picture = make("img", "");
       picture.src = this.#sheet;
       picture.alt = w("sheet");
-      get("sheet").replaceChildren(picture);
+      const button = make("button", "main", w("print"));
+      button.type = "button";
+      button.addEventListener("click", () => print());
+      get("sheet").replaceChildren(button, picture);
     } catch (error) {
       if (!(error instanceof Gone || error instanceof Refusal)) throw error;
       this.#drawn = undefined;
@@ -186,9 +189,7 @@ export class Results {
       case "done":
         // (green: nothing wants a decision)
         output.className = isOld ? "old" : this.#told.open.length ? "care" : "good";
-        output.textContent = isOld
-          ? w("changedSince")
-          : `${w("checked", outcome.result.off_um.toFixed(2))} · ${figures(outcome.result)}`;
+        output.textContent = isOld ? w("changedSince") : visible(inPresent(outcome.result.figures));
         break;
       case "failed":
         output.className = isOld ? "old" : "bad";
@@ -209,11 +210,4 @@ export class Results {
     void this.#bringSheet();
     this.say();
   }
-}
-
-function figures({ blocks, stops, length, seconds, area, price }: Result): string {
-  const minutes = Math.round(seconds / 60);
-  const time = minutes < 60 ? w("minutes", minutes) : w("hours", Math.floor(minutes / 60), String(minutes % 60).padStart(2, "0"));
-  const cost = [area === null ? "" : w("area", String(area)), visible(price)].filter(Boolean);
-  return [w("figures", blocks, stops, length.toFixed(1), time), ...cost].join(" · ");
 }

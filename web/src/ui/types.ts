@@ -206,14 +206,8 @@ export interface Empty {
 
 export interface Result {
   readonly lines: readonly Line[];
-  readonly blocks: number;
-  readonly stops: number;
-  readonly length: number;
-  readonly seconds: number;
-  /** mm², where the thickness is known; with its currency, "" without prices. */
-  readonly area: number | null;
-  readonly price: string;
-  readonly off_um: number;
+  /** How near to the drawing, blocks, stops, length, time, area, price: as the report has them. */
+  readonly figures: Said;
   readonly tape_name: string;
   readonly start: Point;
   /** The way from the machine to the drawing: a matrix's rows, what goes to what, mm. */
