@@ -34,8 +34,7 @@ from skg.pipeline.steps import (
 from skg.planning.plan import Asked
 from skg.planning.planned import PlannedContour
 from skg.ui import shown
-from skg.ui.json_text import encoded, told
-from skg.ui.worker import EARLY
+from skg.ui.json_text import EARLY, encoded, told
 
 #: The page's name in messages on its requests.
 _PAGE = "the page"

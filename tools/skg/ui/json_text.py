@@ -11,6 +11,8 @@ from skg.messages.finding import Finding, Phrase
 from skg.messages.render import Medium, Speech, advice, line, text
 from skg.wording import visible
 
+#: The drawing in an answer, where it was told of before.
+EARLY = "early"
 _ENCODER = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"), allow_nan=False)
 
 

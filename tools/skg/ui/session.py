@@ -19,8 +19,8 @@ from skg.messages.finding import Finding, Phrase
 from skg.tape.block import Block
 from skg.tape.positions import WITHOUT_DRIFT
 from skg.tape.styles import STYLES, read_any, to_style
-from skg.ui.json_text import said, told
-from skg.ui.worker import EARLY, Ended, Worker
+from skg.ui.json_text import EARLY, said, told
+from skg.ui.worker import Ended, Worker
 
 #: The drawing's file is looked at so often, s.
 _LOOK = 0.5

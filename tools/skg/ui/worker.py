@@ -18,13 +18,12 @@ from skg.garbage import collect_rarely
 from skg.messages.finding import Finding, Phrase
 from skg.messages.render import Medium, speech
 from skg.terminal import remark
+from skg.ui.json_text import EARLY
 
 #: No call takes longer but a cut, s.
 SECONDS = 120.0
 #: The process has no more memory than this, where the system lets a process say so.
 MEMORY = 4 << 30
-#: The drawing in an answer, where it was told of before.
-EARLY = "early"
 #: Part of an answer, told before the rest.
 Early = Callable[[dict], None]
 #: Progress is told no more often than this, s.
