@@ -1,12 +1,13 @@
 /** The drawing on the screen, `skg ui`, in Debian's chromium. */
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
 import { type Browser, type BrowserContextOptions, chromium, type Locator, type Page } from "playwright-core";
 import { PATIENCE, WHOLE } from "./served.ts";
-import { BRACKET, box, circle, cutByCommand, dxf, endAll, field, line, NO_SETUPS, start } from "./uistart.ts";
+import { BRACKET, box, circle, cutByCommand, dxf, endAll, field, line, NO_SETUPS, SKG, start } from "./uistart.ts";
 
 const CHROMIUM = "/usr/bin/chromium";
 const SHOTS = process.env["SHOTS"] ?? "web/build/shots";
@@ -1032,6 +1033,44 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await page.waitForSelector("#decide", { state: "hidden" });
     await cut(page);
     await page.waitForSelector("#outcome.good");
+    await context.close();
+  });
+
+  test("a punch and its die: a clearance, both tapes and sheets, one or the other is looked at; saved together", async () => {
+    const started = await start();
+    const { context, page, said } = await visit(started.url);
+    await drawn(page);
+    await type(page, "field-wire", "0.2");
+    assert.equal(await page.isVisible("#field-clearance_on"), false);
+    await type(page, "field-clearance", "0.02");
+    await page.selectOption("#field-clearance_on", "die");
+    await cut(page);
+    await page.click("#tab-report");
+    await says(page, "#report", /punch: cut from outside, to the size that is drawn.*die: cut from inside, 0.02 mm larger/s);
+    const punch = (await page.textContent("#outcome")) ?? "";
+    await page.selectOption("#member", "die");
+    await page.waitForFunction((before) => document.getElementById("outcome")?.textContent !== before, punch);
+    await page.click("#tab-program");
+    await says(page, "#program", /1 CONTOUR/);
+    await page.click("#shut");
+    await page.click("#save");
+    await page.click("#save-yes");
+    await message(page, /bracket-punch.*bracket-die/);
+    const words = ["--wire", "0.2", "--clearance", "0.02", "--clearance-on", "die"];
+    execFileSync(SKG, ["cut", join(started.folder, "bracket.dxf"), "-o", join(started.folder, "own.nodrift.3b"), ...words], {
+      stdio: "pipe",
+    });
+    for (const member of ["punch", "die"]) {
+      assert.deepEqual(started.file(`bracket-${member}.nodrift.3b`), started.file(`own-${member}.nodrift.3b`));
+      assert.equal(started.file(`bracket-${member}.pdf`).subarray(0, 5).toString(), "%PDF-");
+    }
+    // without the clearance it is the part again
+    await page.fill("#field-clearance", "");
+    await page.press("#field-clearance", "Enter");
+    await settled(page);
+    await cut(page);
+    assert.equal(await page.isVisible("#member"), false);
+    assert.deepEqual(said, []);
     await context.close();
   });
 

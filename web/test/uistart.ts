@@ -4,7 +4,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 
-const SKG = process.env["SKG"] ?? ".venv/bin/skg";
+export const SKG = process.env["SKG"] ?? ".venv/bin/skg";
 export const BRACKET = readFileSync("docs/pictures/bracket.dxf");
 
 // (setups of whoever runs the tests are not theirs)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import codecs
 import json
-import re
 import sys
 from collections.abc import Callable, Iterable
 from contextlib import ExitStack
@@ -483,18 +482,20 @@ class _Names(NamedTuple):
             return self
         if "-" in self:
             raise UserError(Finding("pair-on-stdout"))
-        ending = f"-{member[0].upper() if is_short else member}"
+        from skg.pipeline.pairing import ending_of
+
+        ending = ending_of(member, is_short)
         others = (name and _of_member(name, ending) for name in (self.program, self.sheet, self.holes))
         return _Names(_of_member(self.output, ending), *others)
 
 
 def _of_member(name: str, ending: str) -> str:
+    from skg.pipeline.pairing import file_name
+
     path = Path(name)
     if path.exists() and not path.is_file():
         return name
-    name, rest = path.name, re.search(r"(\.nodrift)?(\.\w+)?$", path.name)
-    at = rest.start() if rest and rest.start() else len(name)
-    return str(path.with_name(name[:at] + ending + name[at:]))
+    return str(path.with_name(file_name(path.name, ending)))
 
 
 def _for_machine(result: CutResult, dialect: GcodeDialect, output: str) -> bytes:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -24,6 +25,18 @@ _MEANT = {
 def named(member: str) -> Phrase:
     """The name of one of both, before a message on it."""
     return Phrase("member-punch" if member == PUNCH else "member-die")
+
+
+def ending_of(member: str, is_short: bool) -> str:
+    """What the names of its files have before their endings; `is_short`: where they have eight letters."""
+    return f"-{member[0].upper() if is_short else member}" if member else ""
+
+
+def file_name(name: str, ending: str) -> str:
+    """The name of a file, which has no folder, with something before its own ending."""
+    rest = re.search(r"((\.nodrift)?\.3b|\.\w+)?$", name, re.IGNORECASE)
+    at = rest.start() if rest and rest.start() else len(name)
+    return name[:at] + ending + name[at:]
 
 
 def members(wanted: Sequence[Wanted], nesting: Nesting) -> tuple[str, ...]:

@@ -20,10 +20,11 @@ from skg.job.placing import Copies, Place
 from skg.job.wanted import Partial
 from skg.messages.finding import Finding
 from skg.messages.render import speech
+from skg.pipeline.pairing import named
 from skg.pipeline.steps import (
     CutDrawing,
     DrawnJob,
-    cut_drawing,
+    cut_all,
     open_drawing,
     plan_placed,
     refuse_lost,
@@ -67,7 +68,7 @@ class Desk:
         self._doubts: dict[Chosen, float] = {}
         #: The error while no drawing is open.
         self._why = UserError(Finding("page-no-drawing"))
-        self._cut: tuple[int, Job, CutDrawing] | None = None
+        self._cut: tuple[int, Job, list[CutDrawing]] | None = None
 
     def drawing_of(self, text: bytes, name: str) -> str:
         """The drawing that a job file is for."""
@@ -124,29 +125,34 @@ class Desk:
 
     def cut(self, number: int) -> tuple[dict[str, Any], dict[str, bytes]]:
         """Make the tape of a run: what is told of it, and its files."""
-        cut = cut_drawing(self._job, self._present(), self._progress)
-        self._cut = number, self._job, cut
-        thick, routes = self._job.machine.thickness, cut.result.routes
-        holes = {"holes": holes_files.table(routes)}
-        if thick is not None:
-            holes["drill"] = holes_files.drilled(routes, thick, "drill")
-        files = holes | {"tape": cut.result.data, "program": cut.result.program.encode("ascii"), "job": self.job()}
-        return shown.result(cut), files
+        cuts = cut_all(self._job, self._present(), self._progress)
+        self._cut = number, self._job, cuts
+        files = {"job": self.job()}
+        for cut in cuts:
+            own = f"{cut.member}/" if cut is not cuts[0] else ""
+            thick, routes = self._job.machine.thickness, cut.result.routes
+            files |= {f"{own}tape": cut.result.data, f"{own}program": cut.result.program.encode("ascii")}
+            files[f"{own}holes"] = holes_files.table(routes)
+            if thick is not None:
+                files[f"{own}drill"] = holes_files.drilled(routes, thick, "drill")
+        return shown.results(cuts), files
 
-    def sheet(self, number: int, tape: str, form: str, language: str) -> bytes:
-        """The setup sheet of a run, in a language; none: that of this process."""
+    def sheet(self, number: int, tape: str, form: str, language: str, member: str) -> bytes:
+        """The setup sheet of a run, of one of a pair, in a language; none: that of this process."""
         if self._cut is None or self._cut[0] != number:
             raise UserError(Finding("page-sheet-gone"))
         try:
             from skg.pictures.sheet import Facts, write_sheet
         except ModuleNotFoundError:
             raise UserError(Finding("needs-matplotlib")) from None
-        _, job, cut = self._cut
+        _, job, cuts = self._cut
+        cut = next((cut for cut in cuts if cut.member == member), cuts[0])
         with TemporaryDirectory(prefix="skg-") as folder:
             path = str(Path(folder) / f"sheet.{form}")
             before, speech.language = speech.language, language or speech.language
             try:
-                facts = Facts(job.drawing, tape, cut.account.units, job.place.scale, tuple(cut.cost.figures()))
+                whose = f"{job.drawing}: {named(cut.member)}" if cut.member else job.drawing
+                facts = Facts(whose, tape, cut.account.units, job.place.scale, tuple(cut.cost.figures()))
                 write_sheet(cut.result, facts, path, form)
             finally:
                 speech.language = before

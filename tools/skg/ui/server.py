@@ -388,7 +388,7 @@ class Handler(BaseHTTPRequestHandler):
         if kind == "job" and query.get("style") in STYLES:
             file = session.job_in_form(int(number), TapeForm(query["style"], query.get("short") == "true"))
         else:
-            file = session.file(int(number), kind, _language(query.get("language")))
+            file = session.file(int(number), kind, _language(query.get("language")), member=query.get("member", ""))
         self._send(file, TYPES[kind])
 
     def _save(self, query: dict[str, str]) -> None:
@@ -404,7 +404,8 @@ class Handler(BaseHTTPRequestHandler):
         self._send_json({"written": written})
 
     def _rest(self, query: dict[str, str], number: str, block: str) -> None:
-        rest = self.server.session.styled(int(number), query.get("style", "punch"), int(block))
+        style, member = query.get("style", "punch"), query.get("member", "")
+        rest = self.server.session.styled(int(number), style, int(block), member)
         self._send(rest, TYPES["tape"])
 
     def _take(self, query: dict[str, str]) -> None:

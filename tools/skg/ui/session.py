@@ -16,6 +16,7 @@ from skg.job import file as job_files
 from skg.job.job import ROMS, Job, TapeForm
 from skg.job.setups import Setups
 from skg.messages.finding import Finding, Phrase
+from skg.pipeline.pairing import DIE, PUNCH, ending_of, file_name
 from skg.tape.block import Block
 from skg.tape.positions import WITHOUT_DRIFT
 from skg.tape.styles import STYLES, read_any, to_style
@@ -451,7 +452,11 @@ class Session:
 
         try:
             result, files = self._worker.call("cut", run.number, progress=progress)
-            self._tell(run, state="done", files=files, result=result | {"tape_name": self._names()["tape"]})
+            name = self._names()["tape"]
+            if mate := result.get("mate"):
+                mate["tape_name"] = file_name(name, ending_of(DIE, False))
+                name = file_name(name, ending_of(PUNCH, False))
+            self._tell(run, state="done", files=files, result=result | {"tape_name": name})
         except UserError as error:
             self._tell(run, state="failed", error=told(error))
         finally:
@@ -495,21 +500,24 @@ class Session:
                 self._worker.end()
             return run.data()
 
-    def file(self, number: int, kind: str, language: str = "", tape: str = "") -> bytes:
-        """A file of a run; the sheet is drawn when it is asked for, in a language, with the name of the tape."""
+    def file(self, number: int, kind: str, language: str = "", tape: str = "", member: str = "") -> bytes:
+        """A file of a run, of one of a pair; the sheet is drawn when it is asked for, in a language, with the name of
+        the tape."""
         run = self._known(number)
         if run.state != "done":
             raise UserError(Finding("run-without-tape", number=number))
-        if kind in run.files:
-            return run.files[kind]
+        is_mate = member == DIE and "mate" in run.result and kind != "job"
+        known = f"{DIE}/{kind}" if is_mate else kind
+        if known in run.files:
+            return run.files[known]
         if kind == "drill":
             raise UserError(Finding("drill-without-thickness"))
-        tape = tape or run.result["tape_name"]
-        key = f"{kind} {language} {tape}"
+        tape = tape or (run.result["mate"] if is_mate else run.result)["tape_name"]
+        key = f"{known} {language} {tape}"
         if key not in run.files:
             form = kind.partition(".")[2] or "pdf"
             with self._called():
-                run.files[key] = self._worker.call("sheet", number, tape, form, language)
+                run.files[key] = self._worker.call("sheet", number, tape, form, language, member)
         return run.files[key]
 
     # Saving.
@@ -524,9 +532,9 @@ class Session:
         holes = {kind: stem + ending for kind, ending in HOLES.items()}
         return {"program": f"{stem}.skg", "job": job, "sheet": f"{stem}.pdf", "tape": tape} | holes
 
-    def styled(self, number: int, style: str, first: int = 1) -> bytes:
-        """The tape of a run in a style, from a block on (from 1)."""
-        data = self.file(number, "tape")
+    def styled(self, number: int, style: str, first: int = 1, member: str = "") -> bytes:
+        """The tape of a run, of one of a pair, in a style, from a block on (from 1)."""
+        data = self.file(number, "tape", member=member)
         if style not in STYLES:
             raise UserError(Finding("bad-request", detail=f"style: expected one of {', '.join(STYLES)}"))
         if style == "punch" and first == 1:
@@ -555,6 +563,30 @@ class Session:
         names |= {kind: name + ending for kind, ending in HOLES.items()}
         return names | {"program": f"{name}.skg", "sheet": f"{name}.pdf", "tape": name + ending}
 
+    def _files_of(
+        self, number: int, kinds: list[str], names: dict[str, str], form: TapeForm, language: str
+    ) -> dict[str, bytes]:
+        """Files of a run by their names, in the order of writing: of a pair both of each kind. Without a name for the
+        tape it has the run's."""
+        result = self._known(number).result
+        files = {}
+        for kind in (kind for kind in SAVED if kind in kinds):
+            if kind == "job":
+                files[names[kind]] = self.job_in_form(number, form)
+                continue
+            for member in (PUNCH, DIE) if "mate" in result else ("",):
+                ending = ending_of(member, form.short_name)
+                tape = file_name(names["tape"], ending)
+                if not names["tape"]:
+                    tape = (result["mate"] if member == DIE else result)["tape_name"]
+                elif member:
+                    form.refuse_name(tape)
+                if kind == "tape":
+                    files[tape] = self.styled(number, form.style, member=member)
+                else:
+                    files[file_name(names[kind], ending)] = self.file(number, kind, language, tape, member)
+        return files
+
     def save(
         self,
         number: int | None,
@@ -580,15 +612,10 @@ class Session:
         form = TapeForm(style, is_short)
         names, folder = self.named(name, is_short), self._path.parent
         if number is not None:
-            names["tape"] = names["tape"] if name else self._known(number).result["tape_name"]
-            files = {kind: self.file(number, kind, language, names["tape"]) for kind in SAVED if kind in kinds}
-            if "tape" in kinds:
-                files["tape"] = self.styled(number, style)
-            if "job" in kinds:
-                files["job"] = self.job_in_form(number, form)
+            names |= {} if name else {"tape": ""}
+            files = self._files_of(number, kinds, names, form, language)
         else:
-            files = {"job": self._job_file()}
-        files = {names[kind]: data for kind, data in files.items()}
+            files = {names["job"]: self._job_file()}
         # (a link to nothing is there too: its target would be written)
         if not is_over and (exists := [name for name in files if os.path.lexists(folder / name)]):
             raise Conflict(Finding("already-there", names=tuple(exists)), exists=exists)

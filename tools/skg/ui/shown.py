@@ -21,10 +21,11 @@ from skg.geometry.placement import Placement
 from skg.geometry.plane import XY
 from skg.job.job import Chosen
 from skg.job.wanted import Wanted
-from skg.messages.catalogue import LANGUAGES
+from skg.messages.catalogue import LANGUAGES, template
 from skg.messages.finding import Finding, Phrase
 from skg.messages.render import Medium, Speech, text
 from skg.messages.severity import Severity
+from skg.pipeline.pairing import named
 from skg.pipeline.placing import as_drawn
 from skg.pipeline.steps import CutDrawing, DrawnJob
 from skg.planning import walls
@@ -72,9 +73,14 @@ def _edge(edge: Edge) -> list[Any]:
     return ordinates if edge.centre is None else [*ordinates, *place(edge.centre), round(edge.sweep, _ANGLE)]
 
 
-def line(entry: Finding) -> dict[str, Any]:
-    """A line of a report."""
-    texts = [text(entry, Speech(language, Medium.PAGE)) for language in LANGUAGES]
+def line(entry: Finding, member: str = "") -> dict[str, Any]:
+    """A line of a report, on one of a pair."""
+    ways = [Speech(language, Medium.PAGE) for language in LANGUAGES]
+    texts = [text(entry, way) for way in ways]
+    if member:
+        separators = (template("source-separator", language) for language in LANGUAGES)
+        names = (text(named(member), way) for way in ways)
+        texts = ["".join(parts) for parts in zip(names, separators, texts, strict=True)]
     told_line = {"text": texts, "care": entry.severity is Severity.CARE} | facts(entry)
     # (who has decided on it is not asked again while its values are the same)
     return told_line | ({"key": crc32(repr(entry).encode())} if told_line["care"] else {})
@@ -221,9 +227,11 @@ class Plans:
 @lru_cache
 def _values(want: Wanted, is_slug: bool) -> str:
     """The wishes for a contour, those of layer and default included, as JSON; `is_slug`: its tab keeps a slug."""
-    names = ("cut", "side", "offset", "overlap", "lead", "lead_shape", "reverse", "order")
+    names = ("cut", "side", "offset", "overlap", "lead", "lead_shape", "reverse", "order", "clearance_on")
     values: dict[str, Any] = {name: getattr(want, name) for name in names}
     values |= {name: list(getattr(want, name)) for name in ("passes", "tab_passes")}
+    if want.clearance is not None:
+        values["clearance"] = want.clearance
     tabs = want.tabs if isinstance(want.tabs, int) else list(map(list, want.tabs))
     return in_json(values | {"tab": want.slug_tab if is_slug else want.tab, "tabs": tabs}).decode()
 
@@ -313,11 +321,20 @@ def _beside(run: Run) -> list[Edge]:
     return [Edge((x, y), (u, v)) for (x, y), (u, v) in pairwise(corners)]
 
 
+def results(cuts: Sequence[CutDrawing]) -> dict[str, Any]:
+    """The result of a run: of a punch, `mate` is that of its die, and all lines are in one list."""
+    first, *others = map(result, cuts)
+    if not others:
+        return first
+    (mate,) = others
+    return first | {"mate": mate, "lines": first["lines"] + mate.pop("lines")}
+
+
 def result(cut: CutDrawing) -> dict[str, Any]:
     """The result of a cut. `back`: the way from the machine to the drawing: a matrix's rows, what goes to what, mm."""
     made, back = cut.result, cut.placement.back
     return {
-        "lines": [line(entry) for entry in cut.findings],
+        "lines": [line(entry, cut.member) for entry in cut.findings],
         "figures": said(figures(made, cut.cost)),
         "start": place(made.routes[0].start),
         "back": [*back.matrix, *back.origin, *back.at],

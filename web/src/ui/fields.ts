@@ -26,6 +26,7 @@ const USUAL: Wanted = {
   lead: 3,
   lead_shape: "perpendicular",
   reverse: false,
+  clearance_on: "punch",
 };
 
 /** Of more contours nobody asks for those that are alike. */
@@ -64,6 +65,16 @@ const PLANS: readonly (Plan & { key: Key })[] = [
     ],
   },
   { key: "reverse", label: "reverse", kind: "switch" },
+  { key: "clearance", label: "clearance", kind: "number", unit: "mm", example: "0.02" },
+  {
+    key: "clearance_on",
+    label: "clearanceOn",
+    kind: "choice",
+    options: [
+      ["punch", "punch"],
+      ["die", "die"],
+    ],
+  },
   { key: "start", label: "start", kind: "point", example: "20" },
   { key: "entry", label: "entry", kind: "point", example: "20" },
   { key: "order", label: "order", kind: "whole", example: "2" },
@@ -113,6 +124,7 @@ export class Fields {
     for (const [key, field] of this.#fields) {
       field.row.hidden =
         !state || (SINGLE.has(key) && !isSingle) || (isAll && NOT_ALL.has(key)) || (isOfContours && NOT_SINGLE.has(key));
+      if (key === "clearance_on") field.row.hidden ||= this.#values("clearance", wanted).every((each) => each === undefined);
       if (field.row.hidden) continue;
       const values = this.#values(key, wanted);
       const isMixed = values.some((value) => !same(value, values[0]));

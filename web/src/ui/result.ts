@@ -16,7 +16,7 @@ import { WayBack } from "./lying.ts";
 import type { Saving } from "./saving.ts";
 import { Gone, Refusal, type Server } from "./server.ts";
 import type { TellTale } from "./told.ts";
-import type { Result, Run } from "./types.ts";
+import type { Member, Result, Run } from "./types.ts";
 import { visible } from "./visible.ts";
 import { type Word, w } from "./words.ts";
 
@@ -37,6 +37,8 @@ export class Results {
   /** The run whose sheet is drawn, and its address. */
   #drawn: number | undefined;
   #sheet = "";
+  /** The one of a pair that is shown. */
+  #member: Member = "punch";
 
   constructor(cutting: Cutting, server: Server, canvas: Canvas, told: TellTale, saving: Saving, walk: WebAssembly.Module) {
     this.#cutting = cutting;
@@ -62,6 +64,9 @@ export class Results {
     });
     onClick("go-on-save", () => void this.#goOn());
     new Drawer(() => void this.#bringSheet());
+    get("member").addEventListener("change", () => {
+      void this.#choose(get<HTMLSelectElement>("member").value as Member);
+    });
   }
 
   #block(choice = this.#chooser.choice): Placed | undefined {
@@ -87,8 +92,8 @@ export class Results {
     const [run, block, { outcome }] = [this.#shown, this.#block(), this.#cutting];
     if (run === undefined || !block || outcome.kind !== "done") return;
     try {
-      const rest = await this.#server.tape(run, this.#saving.style, block.number);
-      const name = outcome.result.tape_name.replace(/((\.nodrift)?\.3b)$/, `.from${block.number}$1`);
+      const rest = await this.#server.tape(run, this.#saving.style, this.#member, block.number);
+      const name = this.#of(outcome.result).tape_name.replace(/((\.nodrift)?\.3b)$/, `.from${block.number}$1`);
       saveFile(name, rest);
       this.#canvas.pointOnMachine(block.start);
       show(w("downloaded", name));
@@ -106,8 +111,21 @@ export class Results {
       if (this.#shown !== undefined) this.#clear();
     } else if (run !== undefined && run !== this.#shown) {
       this.#shown = run;
+      if (!outcome.result.mate) this.#member = "punch";
       await Promise.all([this.#bring(run, outcome.result), this.#bringSheet()]);
     }
+  }
+
+  /** Shows the punch, or the die. */
+  async #choose(member: Member): Promise<void> {
+    this.#member = member;
+    this.#shown = this.#drawn = undefined;
+    await this.show();
+  }
+
+  /** The figures of the one that is shown. */
+  #of(result: Result): Omit<Result, "lines" | "mate"> {
+    return (this.#member === "die" && result.mate) || result;
   }
 
   #clear(): void {
@@ -119,9 +137,14 @@ export class Results {
 
   async #bring(run: number, result: Result): Promise<void> {
     try {
-      const [tape, program] = await Promise.all([this.#server.file(run, "tape"), this.#server.file(run, "program")]);
-      if (run !== this.#shown) return;
-      this.#take(layOut(readTape(await tape.text()).items, micrometres(result.start)).layout, new WayBack(result.back));
+      const member = this.#member;
+      const [tape, program] = await Promise.all([
+        this.#server.file(run, "tape", member),
+        this.#server.file(run, "program", member),
+      ]);
+      if (run !== this.#shown || member !== this.#member) return;
+      const { start, back } = this.#of(result);
+      this.#take(layOut(readTape(await tape.text()).items, micrometres(start)).layout, new WayBack(back));
       get("program").textContent = (await program.text()).replace(/\r\n/g, "\n");
     } catch (error) {
       if (!(error instanceof Gone || error instanceof Refusal)) throw error;
@@ -135,7 +158,7 @@ export class Results {
     if (run === undefined || get("sheet").hidden || run === this.#drawn) return;
     this.#drawn = run;
     try {
-      const sheet = await this.#server.file(run, "sheet.svg");
+      const sheet = await this.#server.file(run, "sheet.svg", this.#member);
       if (run !== this.#shown) return;
       URL.revokeObjectURL(this.#sheet);
       this.#sheet = URL.createObjectURL(sheet);
@@ -174,6 +197,8 @@ export class Results {
     const save = get<HTMLButtonElement>("save");
     save.textContent = w(isDone ? "save" : "saveJob");
     save.classList.toggle("main", isDone);
+    get("member").hidden = outcome.kind !== "done" || isOld || !outcome.result.mate;
+    get<HTMLSelectElement>("member").value = this.#member;
     switch (outcome.kind) {
       case "none":
         output.textContent = "";
@@ -189,7 +214,7 @@ export class Results {
       case "done":
         // (green: nothing wants a decision)
         output.className = isOld ? "old" : this.#told.open.length ? "care" : "good";
-        output.textContent = isOld ? w("changedSince") : visible(inPresent(outcome.result.figures));
+        output.textContent = isOld ? w("changedSince") : visible(inPresent(this.#of(outcome.result).figures));
         break;
       case "failed":
         output.className = isOld ? "old" : "bad";

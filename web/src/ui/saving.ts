@@ -7,7 +7,7 @@ import { ask, show } from "../message.ts";
 import type { Cutting } from "./cutting.ts";
 import type { Desk } from "./desk.ts";
 import { Gone, Refusal, type Server } from "./server.ts";
-import type { FileKind, Named, Style, Values } from "./types.ts";
+import type { FileKind, Member, Named, Style, Values } from "./types.ts";
 import { w } from "./words.ts";
 
 /** Endings of what is downloaded, behind the name without its own. */
@@ -141,21 +141,22 @@ export class Saving {
     const { outcome } = this.#cutting;
     const tape = outcome.kind === "done" ? outcome.result.tape_name : "";
     const stem = this.#named.name || this.#stem;
+    const isPair = outcome.kind === "done" && outcome.result.mate !== undefined;
     const files: [string, Blob][] = [];
-    for (const each of what) {
-      const name =
-        each === "tape"
-          ? stem + ((!this.#named.short && TAPE.exec(tape)?.[0]) || ".3b")
-          : (each === "job" ? this.#stem : stem) + ENDINGS[each];
-      const file =
-        run === null
-          ? await this.#server.job()
-          : await (each === "tape"
-              ? this.#server.tape(run, this.#named.style)
-              : each === "job"
-                ? this.#server.jobOf(run, this.#named)
-                : this.#server.file(run, each));
-      files.push([name, file]);
+    if (what.includes("job")) {
+      const job = run === null ? await this.#server.job() : await this.#server.jobOf(run, this.#named);
+      files.push([this.#stem + ENDINGS.job, job]);
+    }
+    for (const member of (isPair ? ["punch", "die"] : ["punch"]) as Member[]) {
+      const ending = isPair ? `-${this.#named.short ? member.charAt(0).toUpperCase() : member}` : "";
+      for (const each of run === null ? [] : what.filter((kind) => kind !== "job")) {
+        const isTape = each === "tape";
+        const behind = isTape ? (!this.#named.short && TAPE.exec(tape)?.[0]) || ".3b" : ENDINGS[each];
+        const file = isTape
+          ? this.#server.tape(run as number, this.#named.style, member)
+          : this.#server.file(run as number, each, member);
+        files.push([stem + ending + behind, await file]);
+      }
     }
     // (all or none)
     for (const [name, file] of files) saveFile(name, file);

@@ -1,6 +1,22 @@
 /** The calls to the server of `skg ui`. */
 import { spoken } from "../language.ts";
-import type { Empty, Fault, FileKind, Job, Later, Named, Put, Run, Said, Setups, State, Style, Tables, Ways } from "./types.ts";
+import type {
+  Empty,
+  Fault,
+  FileKind,
+  Job,
+  Later,
+  Member,
+  Named,
+  Put,
+  Run,
+  Said,
+  Setups,
+  State,
+  Style,
+  Tables,
+  Ways,
+} from "./types.ts";
 
 /** The server refused, and said why. */
 export class Refusal extends Error {
@@ -62,8 +78,8 @@ export class Server {
     await this.#call("DELETE", `run/${run}`);
   }
 
-  async file(run: number, what: FileKind | "sheet.svg"): Promise<Blob> {
-    return (await this.#call("GET", `run/${run}/${what}?language=${spoken()}`)).blob();
+  async file(run: number, what: FileKind | "sheet.svg", member: Member): Promise<Blob> {
+    return (await this.#call("GET", `run/${run}/${what}?language=${spoken()}&member=${member}`)).blob();
   }
 
   /** The job as a file, cut or not. */
@@ -83,8 +99,8 @@ export class Server {
   }
 
   /** The tape of a run in a style, from a block on. */
-  async tape(run: number, style: Style, first = 1): Promise<Blob> {
-    return (await this.#call("GET", `run/${run}/from/${first}?style=${style}`)).blob();
+  async tape(run: number, style: Style, member: Member, first = 1): Promise<Blob> {
+    return (await this.#call("GET", `run/${run}/from/${first}?style=${style}&member=${member}`)).blob();
   }
 
   /** Takes a job that lies beside the drawing, or leaves it. */

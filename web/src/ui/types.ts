@@ -5,6 +5,8 @@ export type Point = readonly [number, number];
 export type Said = readonly [string, string];
 /** A line `x0 y0 x1 y1`, an arc `x0 y0 x1 y1 cx cy sweep`, or a curve `"c" x0 y0 x1 y1 …`. */
 export type Edge = readonly (number | "c")[];
+/** One of a pair. */
+export type Member = "punch" | "die";
 export type Side = "auto" | "inside" | "outside" | "left" | "right" | "on";
 export type Kind = "outline" | "opening" | "open";
 
@@ -24,6 +26,9 @@ export interface Wanted {
   lead?: number;
   lead_shape?: "perpendicular" | "arc";
   reverse?: boolean;
+  /** Between a punch and its die, on each side; which of both takes it. */
+  clearance?: number;
+  clearance_on?: Member;
   start?: Point;
   entry?: Point;
   order?: number;
@@ -209,6 +214,8 @@ export interface Result {
   /** How near to the drawing, blocks, stops, length, time, area, price: as the report has them. */
   readonly figures: Said;
   readonly tape_name: string;
+  /** The die of a punch: its own, but for the lines. */
+  readonly mate?: Omit<Result, "lines" | "mate">;
   readonly start: Point;
   /** The way from the machine to the drawing: a matrix's rows, what goes to what, mm. */
   readonly back: readonly number[];
