@@ -19,6 +19,10 @@ web: venv web/build/build.mjs
 ui-page: web/build/ui.mjs
 	@node web/build/ui.mjs
 
+# The pictures of it that stand in the pages. Needs chromium.
+ui-pictures: ui-page web/build/test/ui.pictures.mjs
+	node web/build/test/ui.pictures.mjs
+
 web-serve: web
 	$(PYTHON) -m http.server --bind 127.0.0.1 --directory web/dist 8080
 
@@ -43,4 +47,4 @@ web-format: web-modules
 test-web: web $(patsubst web/%.ts,web/build/%.mjs,$(wildcard web/test/*.browser.ts))
 	node --test --test-reporter=spec web/build/test/*.browser.mjs
 
-.PHONY: web ui-page web-modules web-lint web-format web-tools web-serve web-wasm test-web
+.PHONY: web ui-page ui-pictures web-modules web-lint web-format web-tools web-serve web-wasm test-web

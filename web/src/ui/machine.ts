@@ -3,7 +3,7 @@ import { get } from "../dom.ts";
 import type { Desk } from "./desk.ts";
 import { type Edited, set } from "./edits.ts";
 import { Field, type Plan, type Value } from "./inputs.ts";
-import { w } from "./words.ts";
+import { find, type Word, w } from "./words.ts";
 
 type Part = "machine" | "read" | "price";
 
@@ -13,7 +13,9 @@ interface Entry extends Plan {
   readonly usual?: Value;
 }
 
-const units = (...names: string[]): Plan["options"] => names.map((name) => [name, ""] as const);
+/** Units by their names; those that are no signs have words. */
+const UNIT_WORDS: Record<string, Word> = { inch: "inch", foot: "foot" };
+const units = (...names: string[]): Plan["options"] => names.map((name) => [name, UNIT_WORDS[name] ?? ""] as const);
 
 const FIRST: readonly Entry[] = [
   { part: "machine", key: "wire", label: "wire", kind: "number", unit: "mm", example: "0.18" },
@@ -137,7 +139,7 @@ export class MachineFields {
   /** The file's own units, in place of the word for them. */
   #nameUnits(): void {
     const option = document.querySelector("#field-units option");
-    if (option) option.textContent = w("unitsFile", this.#desk.state?.units ?? "");
+    if (option) option.textContent = w("unitsFile", find(this.#desk.state?.units ?? "") ?? this.#desk.state?.units ?? "");
   }
 
   show(): void {

@@ -168,6 +168,8 @@ const WORDS = {
   standard: ["standard", "标准"],
   ram: ["RAM, KiB", "RAM KiB"],
   units: ["Units", "单位"],
+  inch: ["inch", "英寸"],
+  foot: ["foot", "英尺"],
   unitsFile: ["{0} (file)", "{0}（文件）"],
   openEnds: ["Open lines", "开口线"],
   openUsual: ["usual", "默认"],
