@@ -36,7 +36,14 @@ export class SetupBar {
 
   /** Asks which there are; a damaged one that was chosen last is told of. */
   async begin(): Promise<void> {
-    await this.#tried(() => this.#server.setups());
+    try {
+      this.#known = await this.#server.setups();
+    } catch (error) {
+      // (who is not answered is told so by what asks for the drawing)
+      if (error instanceof Gone || error instanceof Refusal) return;
+      throw error;
+    }
+    this.show();
     const { last } = this.#known;
     const damaged = this.#known.setups.find(({ name, error }) => name === last && error);
     if (damaged?.error) show(inPresent(damaged.error.message));
