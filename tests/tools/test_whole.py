@@ -13,6 +13,7 @@ from facthelp import says
 from test_reading import checked, dxf_bytes, line, polygon, raw, square
 
 from skg.errors import UserError
+from skg.messages.finding import Phrase
 from skg.reading.dxf_record import NEEDED
 from skg.reading.read import Reading, Wishes, read
 
@@ -134,7 +135,7 @@ def test_a_file_that_ends_behind_a_section() -> None:
     end = data.rindex(b"ENDSEC") + 6
     for behind in (b"", b"\n", b"\r\n"):
         reading = checked(data[:end] + behind)
-        assert len(reading.contours) == 1 and says("\n".join(reading.report.notes), "EOF", "take care")
+        assert len(reading.contours) == 1 and says("\n".join(reading.report.notes), Phrase("no-eof"))
     for wrong in (data[: end - 1], data[:end] + b"\n0\n", data[:end] + b"\n0\nSECTION\n2\nOBJECTS\n0\nDICTIONARY\n"):
         with pytest.raises(UserError, match="cut off"):
             checked(wrong)
@@ -155,9 +156,9 @@ def test_blocks_too_deep_are_not_parts_of_themselves() -> None:
         return len(reading.contours), odd.left
 
     count, why = lines(*(block(number, number + 1) for number in range(40)))
-    assert count == 33 and says(why, "D33", "32") and not says(why, "itself")
+    assert count == 33 and says(why, Phrase("reason-block-deep", name="D33", most=32)) and not says(why, "itself")
     count, why = lines(block(0, 1), block(1, 0))
-    assert count == 2 and says(why, "D0", "itself")
+    assert count == 2 and says(why, Phrase("reason-block-itself", name="D0"))
 
 
 def test_chinese_names_in_a_file_that_says_western() -> None:
@@ -165,6 +166,10 @@ def test_chinese_names_in_a_file_that_says_western() -> None:
     header = "9\n$DWGCODEPAGE\n3\nANSI_1252\n"
     for name, encoding in (("\u8f6e\u5ed3", "gbk"), ("Ma\xdfe", "cp1252")):
         data = raw(*square(0, 0, 9, name), header=header).decode().encode(encoding)
-        hints = [note for note in checked(data).report.notes if says(note, "take care", "ANSI_1252", "--encoding gbk")]
+        hints = [
+            note
+            for note in checked(data).report.notes
+            if says(note, Phrase("encoding-doubtful", name="ANSI_1252"), "--encoding gbk")
+        ]
         assert len(hints) == (encoding == "gbk")
         assert checked(data, encoding=encoding).report.layers[0].layer == name
