@@ -16,10 +16,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from facthelp import says
+from facthelp import each_says, says
 from toolhelp import CAD_TAPE, PATIENCE
 
 from skg.machine.teletype import DC2, DC4, XOFF, XON, Splitter
+from skg.messages.finding import Phrase
 
 SKG = Path(sys.executable).with_name("skg")
 PROGRAM = "10 REM A PART\n20 CUT P1,P2\n30 END\n"
@@ -210,7 +211,7 @@ def test_a_character_that_got_lost(machine: Machine, tmp_path: Path) -> None:
     machine.losses = 9
     result = term(machine.link, "--send", part, "--batch")
     assert (result.returncode, machine.lines) == (1, ["10 REM A"])
-    assert b"part.skg: line 2: comes back as '20 CUT (10': the line to the board loses characters" in result.stderr
+    assert says(result.stderr.decode(), "part.skg: ", Phrase("line-number", line=2), Phrase("echo-wrong"), "20 CUT (10")
 
 
 def test_a_board_that_takes_one_character_at_a_time(machine: Machine, tmp_path: Path) -> None:
@@ -220,7 +221,7 @@ def test_a_board_that_takes_one_character_at_a_time(machine: Machine, tmp_path: 
     machine.is_slow = True
     result = term(machine.link, "--send", part, "--batch")
     assert (result.returncode, machine.lines) == (0, PROGRAM.splitlines()), result.stderr
-    assert result.stderr.count(b"the line to the board loses characters: each is waited for from here on") == 1
+    assert each_says(result.stderr.decode(), Phrase("characters-lost"))
 
 
 @pytest.mark.parametrize("pace", ["prompt", "none"])

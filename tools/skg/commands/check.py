@@ -49,7 +49,7 @@ def command(
 
     One line for each finding: file, block (of G-code: line), column, what was expected. Exit code 1 when there is any.
     A program (.skg, .xy, .tkh) is run first, a milling program by the mill ROM. Then its wire, or tool, is laid beside
-    the contours that it draws with R 0: one line for each place that is cut into, and that is not reached.
+    the contours that it draws with R 0: one line for each gouge, and for each place not reached.
     TAPE - is the standard input.
     """
     all_findings: list[tuple[str, Found]] = []

@@ -116,7 +116,7 @@ _BESIDE_A_JOB = (
 @click.command(name="cut")
 @click.argument("file", type=click.Path(allow_dash=True))
 @output_option("Tape to write, - for the standard output.")
-@click.option("--list-layers", is_flag=True, help="Show the layers and what is on them, and cut nothing.")
+@click.option("--list-layers", is_flag=True, help="List the layers and their entities; cut nothing.")
 @click.option("--program", metavar="FILE", type=click.Path(allow_dash=True), help="Also write the SKG program.")
 @click.option("--sheet", metavar="FILE", type=click.Path(), help="Also write the setup sheet: .pdf, .svg or .png.")
 @click.option(
@@ -140,7 +140,7 @@ _BESIDE_A_JOB = (
     "--tolerance",
     default=0.005,
     type=Millimetres(0, min_open=True),
-    help="Join ends no further apart than this.",
+    help="Join ends up to this far apart.",
 )
 @click.option(
     "--open",
@@ -151,7 +151,7 @@ _BESIDE_A_JOB = (
 @click.option(
     "--encoding",
     type=Encoding(),
-    help="Encoding of a DXF file's names, such as GBK. Default: what the file says, else guessed.",
+    help="Encoding of a DXF file's names, such as GBK. Default: the file's, else guessed.",
 )
 @click.option(
     "--side",
@@ -207,10 +207,10 @@ _BESIDE_A_JOB = (
     type=click.Choice(CLEARANCE_ON),
     help="Which of both takes the clearance: the punch is so much smaller, or the die larger; the other is to size.",
 )
-@click.option("--columns", default=1, metavar="N", type=click.IntRange(1), help="Cut so many copies beside each other.")
-@click.option("--rows", default=1, metavar="N", type=click.IntRange(1), help="Cut so many rows of copies.")
+@click.option("--columns", default=1, metavar="N", type=click.IntRange(1), help="Number of copies side by side.")
+@click.option("--rows", default=1, metavar="N", type=click.IntRange(1), help="Number of rows of copies.")
 @click.option("--step", type=COORDINATES, help="From one copy to the next, mm: to the right, and up.")
-@click.option("--around", default=1, metavar="N", type=click.IntRange(1), help="Cut so many copies around a place.")
+@click.option("--around", default=1, metavar="N", type=click.IntRange(1), help="Number of copies around a place.")
 @click.option("--about", type=COORDINATES, help="The place of the drawing that copies lie around.")
 @click.option(
     "--every",
@@ -309,7 +309,7 @@ _BESIDE_A_JOB = (
     help="Style of the tape's blocks, as `skg tape` has them.",
 )
 @click.option("--short-name", is_flag=True, help="Refuse a tape's name that is no .3b of at most eight letters.")
-@click.option("--setup", metavar="NAME", help="Take what is not given from a setup that is kept (docs/tools.md).")
+@click.option("--setup", metavar="NAME", help="A kept setup, for all settings that are not given (docs/tools.md).")
 @click.option(
     "--save-job", metavar="FILE", type=click.Path(), help="Also write the settings, as a job file: .job.toml."
 )

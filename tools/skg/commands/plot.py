@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 @click.command(name="plot")
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(allow_dash=True))
 @output_option("Picture to write, .svg, .png or .pdf; - for the standard output.", required=True)
-@click.option("--format", "form", type=click.Choice(FORMATS), help="Format, where the name does not tell it.")
+@click.option("--format", "form", type=click.Choice(FORMATS), help="Format, if the name does not tell.")
 @click.option("--blocks", is_flag=True, help="Write every block's number beside it.")
 @click.option(
     "--wire",
@@ -76,7 +76,7 @@ def command(
     """Draw tapes and programs to scale, several in one picture.
 
     FILE is a tape (3B, or G-code as .nc, .ngc, .gcode, .tap, .iso) or a program (.skg, .xy, .tkh), which is run first,
-    by the ROM (a milling program by the mill ROM) or by what --skg80 names; `-`: a tape on the standard input.
+    by the ROM (a milling program by the mill ROM) or by the emulator of --skg80; `-`: a tape on the standard input.
 
     Start holes are circles, drilled holes crosses in them, stops squares, moves that do not cut dashed.
     """

@@ -16,7 +16,7 @@ def translator(name: str, ending: str, language: str) -> click.Command:
 
     @click.command(
         name=name,
-        help=f"""Write the SKG program that cuts what PART describes in {language}.
+        help=f"""Translate PART from {language}, to SKG.
 
         An error in PART is one line, FILE:LINE:COLUMN: TEXT, with exit code 1 and no program. PART - is the standard
         input.""",

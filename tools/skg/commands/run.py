@@ -44,7 +44,7 @@ def _answers(name: str | None) -> Iterator[str]:
     "--max-cycles",
     metavar="N",
     type=click.IntRange(1),
-    help="Give up LOAD or RUN after so many cycles, with exit code 3.",
+    help="Most cycles of LOAD or RUN; more end it with exit code 3.",
 )
 def command(part: str, output: str, rom: str | None, ram: int, answers: str | None, max_cycles: int | None) -> None:
     """LOAD and RUN PART on the board, by the ROM itself.

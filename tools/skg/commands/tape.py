@@ -23,7 +23,7 @@ from skg.tape.styles import STYLES, to_style
     "padded: with zeros to six digits; joined: all in one line.",
 )
 def command(file: str, output: str, style: str) -> None:
-    """Read a 3B tape as anybody writes it, and write it in one style.
+    """Read a 3B tape in any style, and write it in one.
 
     Differences from the punch's own style are listed on standard error. A program (.skg, .xy, .tkh) is run first.
     FILE - (or none) is the standard input.

@@ -95,12 +95,12 @@ def command(
 ) -> None:
     """Be the teletype of the board on PORT (a device, or any address that pyserial knows).
 
-    Keys go to the board as they are typed; ctrl-] leaves. What it punches, between DC2 and DC4 or on a port
-    of its own, goes to the file of --record: FILE.part, until all of the tape is there. XOFF holds what is sent
+    Keys go to the board as they are typed; ctrl-] leaves. The tape, between DC2 and DC4 or on a port
+    of its own, goes to the file of --record: FILE.part, until it is whole. XOFF holds sending
     until XON. A port that goes away is opened again when it comes back. Without a terminal the standard input is
     typed instead, and the command leaves as with --batch.
 
-    The first ERR ends what is sent: then the keyboard is yours, or the exit code is 1.
+    The first ERR ends sending: then the keyboard is yours, or the exit code is 1.
     """
     from skg.machine.keyboard import raw_keyboard
     from skg.machine.recorder import Recorder

@@ -43,9 +43,9 @@ if TYPE_CHECKING:
 def command(file: Path | None, port: int, no_browser: bool, until_eof: bool) -> None:
     """Show a drawing in the browser, choose how its contours are cut, and cut it.
 
-    FILE is a drawing (.dxf or .svg) or a job file (.job.toml); without one the page asks for it. What is cut is saved
+    FILE is a drawing (.dxf or .svg) or a job file (.job.toml); without one the page asks for it. Results are saved
     beside it. The page is served to this machine alone, and to those who have the address as it is printed. Ctrl-C ends
-    it; it ends by itself when its page has been closed for ten minutes. What was set and not saved is then in a job
+    it; it ends by itself when its page has been closed for ten minutes. Unsaved settings are then in a job
     file beside the drawing.
     """
     from skg.ui.server import Server

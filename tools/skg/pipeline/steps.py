@@ -16,7 +16,7 @@ from hashlib import sha256
 from skg.checking.as_drawn import as_drawn
 from skg.checking.check_drawn import NEAR, Named, off_drawn
 from skg.cutting.cost import Cost
-from skg.cutting.ladder import CutResult, make
+from skg.cutting.ladder import CutResult, Left, make
 from skg.cutting.progress import Progress, in_silence
 from skg.cutting.report import findings
 from skg.errors import UserError
@@ -37,7 +37,7 @@ from skg.planning.plan import Asked, plan_nested
 from skg.planning.planned import PlannedContour
 from skg.reading.account import Account
 from skg.reading.read import Reading, read
-from skg.reading.selection import SMALL, UNWANTED, WITHIN
+from skg.reading.selection import SMALL, TOO_SHORT, UNWANTED, WITHIN
 
 
 @dataclass(frozen=True)
@@ -233,12 +233,19 @@ def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> C
     if drawn.member:
         others = enumerate(wanted_of(job, replace(drawn, member="")))
         left |= {number: pairing.OTHER for number, want in others if want.cut and number in left}
-    left |= {contour.number: WITHIN if contour.is_within else SMALL for contour in result.left}
+    left |= {contour.number: _reason(contour) for contour in result.left}
     account = drawn.reading.account(left) if left else drawn.reading.report
     result = _beside_file(result, job, drawn, account, placement)
     cost = Cost.of(result, job.price)
     report = [*_findings(job, drawn, account, result, placement, pattern), *cost.findings()]
     return CutDrawing(result, account, cost, report, placement, drawn.member)
+
+
+def _reason(contour: Left) -> Phrase:
+    """The reason why a contour is not cut, in the account of the drawing."""
+    if contour.is_within:
+        return WITHIN
+    return TOO_SHORT if contour.why.code == "too-short-for-tab" else SMALL
 
 
 def _beside_file(result: CutResult, job: Job, drawn: DrawnJob, account: Account, placement: Placement) -> CutResult:

@@ -38,7 +38,8 @@ from skg.reading.repairs import lost, possible, repaired, without_strays
 #: Why an edge is not cut.
 SHORT, DOUBLE, JUNCTION = Phrase("reason-short"), Phrase("reason-twice"), Phrase("reason-junction")
 DASHED, AXIS = Phrase("reason-dashed"), Phrase("reason-axis")
-SMALL, WITHIN = Phrase("reason-no-room"), Phrase("reason-within")
+SMALL, TOO_SHORT = Phrase("reason-no-room"), Phrase("reason-too-short")
+WITHIN = Phrase("reason-within")
 UNWANTED = Phrase("reason-unwanted")
 PAST, OPENED, STRAY = Phrase("reason-past"), Phrase("reason-of-open"), Phrase("reason-stray")
 #: Reasons that are no loss: short or doubled edges are cut with their neighbours, overruns are reported by themselves.

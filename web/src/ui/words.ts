@@ -247,7 +247,7 @@ const WORDS = {
   report: ["Report", "报告"],
   blocks: ["Blocks", "程序段"],
   show: ["Show the place", "显示位置"],
-  care: ["take care", "注意"],
+  care: ["warning", "注意"],
   saved: ["Saved beside the drawing: {0}", "已保存到图纸旁：{0}"],
   downloaded: ["Downloaded: {0}", "已下载：{0}"],
   askOverwrite: ["{0} is there already. Overwrite?", "{0} 已存在。是否覆盖？"],
