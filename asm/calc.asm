@@ -2,7 +2,7 @@
 ; Offers: FSP CALINI RUNBC CALC0 ODUP OOVR COPY5 ODRP CALOP CALPOP OJN OJZ OJMP OJCY ODBL XSIG XMAX
 ;         XE6N ERGEO XXCH OSWP EXCHC
 ; Uses:   consts float start
-; Room:   216 bytes
+; Room:   218 bytes
 ;
 ; RST 5 starts it; the byte-code stands behind the RST.  One byte an operation:
 ;
@@ -172,11 +172,14 @@ OJMP2:  MOV     E,A
         PUSH    B
         RET
 
-; ODBL - QDBL: x + x
-; In:  HL -> x   Out: x; ERR 05   Clobbers all
-ODBL:   MOV     D,H
-        MOV     E,L
-        JMP     FADD
+; ODBL - QDBL: twice x
+; In:  HL -> x   Out: x; ERR 05   Clobbers A
+ODBL:   MOV     A,M
+        ORA     A
+        RZ
+        INR     M               ; the exponent
+        RNZ
+        DB      ERROR,ERANGE
 
 ; QSIG: a number with its sign changed when a second one is negative
 XSIG:   INX     H               ; -> sign of the second one

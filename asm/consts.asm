@@ -1,7 +1,7 @@
 ; consts.asm - constants of the calculator
-; Offers: Q1 Q0 QM1 QI64 QHALF QMU Q90 Q1000 QNEAR Q502 QEPS Q8DIG Q10 QI180 CONTAB
+; Offers: Q1 Q0 QM1 QI64 QHALF QMU Q90 Q1000 QNEAR Q502 QEPS Q10 QI180 CONTAB
 ; Uses:   nothing
-; Room:   80 bytes
+; Room:   75 bytes
 ;
 ; A byte-code line Qx EQU 0C0H+n goes with the n-th float of CONTAB (format: see
 ; float.asm).  Add new ones at the end.
@@ -17,9 +17,8 @@ Q1000   EQU 0C9H
 QNEAR   EQU 0CAH        ; numbers this close are equal
 Q502    EQU 0CBH        ; halves of a um, and what lies 2 nm below
 QEPS    EQU 0CCH        ; directions this close (rad) are one line
-Q8DIG   EQU 0CDH        ; the greatest number on a tape
-Q10     EQU 0CEH
-QI180   EQU 0CFH        ; 1/180
+Q10     EQU 0CDH
+QI180   EQU 0CEH        ; 1/180
 
 ; The table begins with Y (1,0,0), from whose 0 on stands O (0,0), from the next one X (0,-1,0):
 ; FIND (parser.asm) finds them there; so all three must begin in one page (a test looks).
@@ -36,6 +35,5 @@ CONTAB: DB      81H,00H,00H,00H,00H     ; 1
         DB      69H,56H,0BFH,94H,0D6H   ; 1E-7
         DB      80H,00H,83H,12H,6FH     ; 0.502
         DB      70H,27H,0C5H,0ACH,47H   ; 1E-5
-        DB      9BH,3EH,0BCH,1FH,0E0H   ; 99999999
         DB      84H,20H,00H,00H,00H     ; 10
         DB      79H,36H,0BH,60H,0B6H    ; 1/180

@@ -1,7 +1,7 @@
 ; corner.asm - where the wire goes from one element to the next: corners, fillets, the entry; which curves are the same
 ; Offers: JOINED CPYEL CPYPL FILLET TON PASSED OFFCHK CORND FIRST PATC SAMEF SAMEC SAMEL
 ; Uses:   [post] calc consts float geom round route start value
-; Room:   479 bytes
+; Room:   481 bytes
 
 ; (FILLET comes here when it turns by nothing)
 FILL9:  DB      QDOT,QE6N,QEND  ; -             straight on, or straight back
@@ -87,7 +87,7 @@ TON:    LXI     H,MNEXT
 ; when K is the entry a fillet has no room (FILLET comes with RFILW set, CLOSE without).
 PASSED: DB      CALC,QCA,QJC    ; -
         DB      PASS1-$
-        DB      QRET
+PASS2:  DB      QRET
 PASS1:  DB      QNORM,QVEC      ; tx ty
         DB      LC2,LCR,QADD,ST0 ; tx ty                t0 = r of the wire's path
         DB      QCA,LKX,LKY,QTOK,QNORM,QVEC ; tx ty kx ky
@@ -100,8 +100,7 @@ PASS1:  DB      QNORM,QVEC      ; tx ty
         DB      PASS3-$
         DB      QDIF,QFAR,QJN   ; -             T is K
         DB      PASS2-$
-        DB      QCRS,LC2,QSIG,QE6N ; -
-PASS2:  DB      QRET
+        DB      QCRS,LC2,QSIG,QE6N+QRET ; -
 PASS3:  DB      QEND
         JMP     NOFIL
 
@@ -130,10 +129,12 @@ CORNER: DB      CALC,LCR,SO1,LNR,SO2,QEND ; -
 CORNO:  LDA     RNAMED
         ORA     A
         JZ      CROSS
-        DB      CALC,QPTOK        ; -             K = P = b
-        DB      LO1,QABS,LO2,QABS,QADD,QJZ ; -  no offset
-        DB      CORN9-$
-        DB      QEND
+        DB      CALC,QPTOK      ; -             K = P = b
+        DB      Q0,STL,QEND     ; -             crossings, however flat
+        LDA     MO1
+        LXI     H,MO1+5
+        ORA     M
+        RZ                      ; no offset
         LDA     FITSM
         ORA     A
         JNZ     CORN1
@@ -144,7 +145,7 @@ CORNO:  LDA     RNAMED
         LXI     H,NKIND
         ANA     M
         JM      CORN2           ; two lines between points
-        DB      CALC,Q0,STL,QEND ; -             crossings, however flat (A = 0)
+        XRA     A
         STA     RTURN
         CALL    CROSS           ; (QRET leaves A not 0)
         STA     RTURN
@@ -153,14 +154,13 @@ CORNO:  LDA     RNAMED
         DB      LPX,LKX,LPY,LKY,QWAY ; d2^2 d1^2
         DB      QSUB,QJN        ; -
         DB      ATOK-$
-CORN9:  DB      QRET
+        DB      QRET
 ; a corner that no point names: the crossing
 CROSS:  DB      CALC,QXING      ; -
 ATOK:   DB      QVEC,QTOK+QRET  ; -
 CORN2:  DB      CALC            ; as seen from P both pass at their offsets alone
-        DB      LO1,SA2,LO2,SB2,QEND ; -
-        CALL    SXS
-        DB      CALC,LKX,LKY,QSB,Q1,QJMP ; 1
+        DB      LO1,SA2,LO2,SB2,QSXS ; -
+        DB      LKX,LKY,QSB,Q1,QJMP ; 1
         DB      NAMED3-$
 CORN1:  DB      CALC            ; between arcs of a curve: both run the same way, square to the radius
         DB      QCA,QDIF,QSA    ; -            a = from the centre to P
@@ -207,9 +207,11 @@ PLACE1: DB      QDIF,QFAR,QJN   ; r
 PLACE2: DB      QABS,LC0,QADD,LC1,QTOK+QRET ; - the +X side
 
 ; FIRST1 - the wire goes to the entry K; the contour as drawn begins in the same direction from a centre
-; In:  K   Out: D = G   Clobbers all
+; In:  K   Out: G, D   Clobbers all
 FIRST1: CALL    ENTER           ; (tape.asm)
-        DB      CALC,LGX,SDX,LGY,SDY,QRET ; -
+        DB      CALC,LGX,LGY,QSB,QCA,QNORM ; -      b = G, a = its right normal
+        DB      LCR,QNEG,QXCH,QALNG,QVEC,SDY,SDX ; - back by R
+SAME9:  DB      QRET            ;               (for SAME too: leaves Z clear)
 
 ; PATC - place of the point P on C, as offset: P moved R to the right
 ; Out: K   Clobbers all
@@ -257,7 +259,6 @@ SAME2:  DB      QDIF,QHYP       ; distance of the centres
         DB      QABS,QMAX       ; greater
         DB      QJMP
         DB      SAME1-$
-SAME9:  DB      QRET            ;               (leaves Z clear)
 
 ; SAMEL - is the last item, as written, the first one?
 ; Out: Z set when it is   Clobbers all

@@ -1,7 +1,9 @@
 ; data.asm - values come and go: PRINT, DATA, READ, RESTORE, INPUT
 ; Offers: SPRINT SDATA SREST SETDAT SREAD SINPUT ASKAGN
 ; Uses:   calc io lexer parser program start value
-; Room:   184 bytes
+; Room:   187 bytes
+
+;! PROG/100H > (TOKS+0FFH)/100H -- READI3 tells an answer to INPUT from an item of the program by its page
 
 ; SPRINT - statement: PRINT item, item ...
 SPRINT: LXI     H,CRLF
@@ -39,7 +41,7 @@ SREST:  CALL    OPTLN
 ; In:  HL -> the line   Clobbers HL
 SETDAT: DCX     H
         DCX     H
-        SHLD    DATP
+SETDA1: SHLD    DATP            ; (READI3 comes in here with the place behind an item)
         RET
 
 ; SREAD - statement: READ name, ...
@@ -69,19 +71,21 @@ READI1: CALL    ADDA
         JNZ     READI1
 READI2: CALL    TAKEHL          ; TXTP = HL+1
         CALL    EVAL
-        DB      PEEK
-        SHLD    DATP
 ; (fall into READI3)
 
-; READI3 - ends READI and ASK; the stack keeps what it holds for ASKAGN until all is well
-; In:  on the stack: TXTP, name; a0 a1 a2, VKIND   Out: paper on   Clobbers all
+; READI3 - ends READI and ASK; the stack keeps what it holds for ASKAGN until all is well, and an item is not used up
+; In:  on the stack: TXTP, name; a0 a1 a2, VKIND; TXTP behind the item or the answer   Out: paper on   Clobbers all
 READI3: POP     H
         POP     D
         PUSH    D
         PUSH    H
-        SHLD    TXTP
         CALL    SETREF
+        DB      PEEK
+        MOV     A,H
+        CPI     PROG/256
+        CNC     SETDA1          ; (an answer lies in TOKS)
         POP     H
+        SHLD    TXTP
         POP     H
         JMP     PAPON
 

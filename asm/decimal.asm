@@ -1,7 +1,7 @@
 ; decimal.asm - numbers as decimal digits: read, printed
 ; Offers: DECOUT PRDEC DECIN LEXDEC TEN DIGIT LEXCH
 ; Uses:   calc consts float start
-; Room:   459 bytes
+; Room:   457 bytes
 ;
 ; Decimal numbers.  They are scaled by one multiplication or division by a power of ten,
 ; which is exact up to 10^13.  So DECIN gives the nearest float to up to 9 digits, and
@@ -12,14 +12,15 @@
 TENLOG  EQU 0DA87H      ; of exponent 0: high byte = digits before the point, rounded up
 DECMAX  EQU 3FFH        ; a number as good as any greater one: no subscript, past every exponent
 
-; FTEN - |t0| / 10^A
-; In:  A = -128...127   Out: on the calculator's stack; ERR 05   Clobbers all
-FTEN:   MOV     C,A             ; C = sign
-        ORA     A
-        JP      FTEN1
-        CMA
-        INR     A
-FTEN1:  MOV     B,A             ; B = power to go
+; FTEN - |t0| / 10^C
+; In:  C = -128...127   Out: on the calculator's stack; ERR 05   Clobbers all
+FTEN:   MOV     A,C             ; C = sign
+        RAL
+        SBB     A
+        MOV     B,A
+        XRA     C
+        SUB     B
+        MOV     B,A             ; B = power to go
         PUSH    B
         DB      CALC,LT0,QABS
 FTEN2:  DB      QEND            ; x
@@ -113,7 +114,6 @@ DECO3:  DB      QEND
         POP     B
         DCR     C
         PUSH    B
-        MOV     A,C
         CALL    FTEN
         DB      CALC,Q1,QSUB,QJN ; -
         DB      DECO3-$         ; below 1: that power is too large
@@ -262,7 +262,7 @@ DECI9:  MOV     A,C             ; B + 128 less the exponent, or plus a negative 
 DECI7:  POP     H
 DECI8:  XTHL
         PUSH    H
-        MOV     A,B
+        MOV     C,B
         CALL    FTEN
         POP     D
         MVI     A,TFLT

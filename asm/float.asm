@@ -1,7 +1,7 @@
 ; float.asm - numbers of 40 bits
 ; Offers: FSUB FADD OSQ FMUL FDIV FABS FNEG FSGN FITOF FTOI16 FWHOLE FFLR FSQR FTG FCOS FSIN FATG
 ; Uses:   calc consts start
-; Room:   1088 bytes
+; Room:   1087 bytes
 ;
 ;   byte    0          1          2          3          4
 ;       +--------+ +--------+ +--------+ +--------+ +--------+
@@ -553,11 +553,12 @@ FITOF:  PUSH    D
 ; Clobbers all
 FTOI16: MOV     A,M
         ORA     A
-        JNZ     FTOI1
-        MOV     H,A
-        MOV     L,A
-        RET
-FTOI1:  CALL    FWHOLE
+        MOV     D,A
+        MOV     E,A
+        XCHG
+        RZ
+        XCHG
+        CALL    FWHOLE
         LDA     SIGN
         ANI     80H
         ORA     B

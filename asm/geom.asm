@@ -1,8 +1,8 @@
 ; geom.asm - the operations of language.md, section 2.1, as calculator code
-; Offers: BINOPK BINOP BINKND RSTAR XUNIT XSA SXS BELT XDOT XCRS XVEC XDIF XCENT XWAY XSS XHYP XFAR
-;         XALNG XROTV XTURN XSB XLEG XE6D
+; Offers: BINOPK BINOP BINKND RSTAR XUNIT XSA XTOA GSXS BELT XDOT XCRS XVEC XDIF XCENT XWAY XSS XHYP
+;         XFAR XALNG XROTV XSB XLEG XE6D
 ; Uses:   calc consts float start value
-; Room:   514 bytes
+; Room:   511 bytes
 ;
 ; The left operand stands in a0 a1 a2, the right one in b0 b1 b2, unused ones zero:
 ; a point is a circle of radius 0, a number a point on the X axis, a rotation about O one
@@ -107,10 +107,7 @@ GEOTAB: DB      RPLU+ONN,RPLU+OPP
         DB      GFOOT-GSUB,RTRN+OPS
         DB      GMIRR-GFOOT,RDIV+OPS,RDIV+OCS
         DB      GMIRS-GMIRR,RDIV+OSS
-        DB      GPARC-GMIRS,RCOL+OSP,RCOL+OSC
-        DB      GROTS-GPARC,RTRN+OSN,RTRN+OST
-        DB      GPAR-GROTS,RCOL+OSN
-        DB      GDIV-GPAR,RDIV+ONN,RDIV+OPN
+        DB      GDIV-GMIRS,RDIV+ONN,RDIV+OPN
         DB      GROTP-GDIV,RTRN+OPN,RTRN+OCN,RTRN+OPT,RTRN+OCT
         DB      GMULT-GROTP,RMUL+ONN,RMUL+OPN
         DB      KINDS+KPNT
@@ -133,6 +130,9 @@ GEOTAB: DB      RPLU+ONN,RPLU+OPP
         DB      KINDS+KLIN
         DB      GBISEC-GCIR,RTRN+OPP
         DB      GBELT-GBISEC,RCOL+OPP,RCOL+OCC,RCOL+OCP,RCOL+OPC
+        DB      GPARC-GBELT,RCOL+OSP,RCOL+OSC
+        DB      GROTS-GPARC,RTRN+OSN,RTRN+OST
+        DB      GPAR-GROTS,RCOL+OSN
         DB      KINDS+KTURN+1
 
 ; P+P, D+D: a1 and b1 of a number are 0; P-P, D-D
@@ -148,19 +148,6 @@ GMIRS:  DB      QDOT,QDBL,QNEG          ; -2c           c = n1*n2
         DB      QDUP,LB2,QMUL,LA2       ; -2c -2c*g gamma
         DB      QADD,SA2                ; -2c
         DB      QALNG+QRET              ; -
-; S:P, S:C: the parallel that leaves C along its direction
-GPARC:  DB      QDOT,LB2,QJMP           ; n*c r
-        DB      GPAR1-$
-; S#A, S#(A:P): gamma is kept as seen from the centre of the rotation
-GROTS:  DB      LA2                     ; gamma
-        DB      LA0,LB1,QMUL            ; gamma alpha*x
-        DB      LA1,LB2,QMUL,QADD       ; gamma n*c
-        DB      QSUB,QROTV              ; gamma'
-        DB      QDOT,QJMP               ; gamma' n*c
-        DB      GPAR1-$
-; S:D: the parallel to the right
-GPAR:   DB      LA2,LB0                 ; gamma d
-GPAR1:  DB      QADD,SA2,QRET           ; -
 ; D/D, P/D
 GDIV:   DB      QVEC,LB0,ST3            ; x y
         DB      QJMP
@@ -173,15 +160,16 @@ XUNIT1: DB      QDUP,ST3,QABS           ; x y |d|
         DB      QNEAR,QSUB,QE6N         ; x y
 ; (for GDIV too)
 XUNIT2: DB      LT3,QDIV,SA1            ; x
-        DB      LT3,QDIV,SA0,QRET      ; -
+        DB      LT3,QDIV,QTOA+QRET      ; -
 
 ; P#A, C#A, P#(A:P), C#(A:P)
 GROTP:  DB      LB1,LA0,QSUB            ; dx
         DB      LB2,LA1,QSUB,QSA        ; -             to the centre of rotation
         DB      QROTV                   ; -
         DB      QDIF                    ; dx dy         back from there
-; QSA: a0 a1 = a vector
-XSA:    DB      SA1,SA0,QRET            ; -
+; QSA: a0 a1 = a vector.  QTOA: a0 = a number
+XSA:    DB      SA1                     ; x
+XTOA:   DB      SA0,QRET                ; -
 ; P*D, D*D; D*P: 0 - (-D)*P
 GMULT:  DB      QXCH                    ; -
 GNMUL:  DB      LA0,Q0,SA0              ; D
@@ -190,7 +178,6 @@ GNMUL:  DB      LA0,Q0,SA0              ; D
 GPOLAR: DB      QROTV+QRET              ; -
 
 ; S*S: crossing by Cramer's rule; ERR 06 when they are parallel
-SXS:    DB      CALC            ; (for CORNO: as a routine)
 GSXS:   DB      LA2,LB1,QMUL            ;
         DB      LA1,LB2,QMUL,QSUB       ; x*det
         DB      LA0,LB2,QMUL            ; x*det
@@ -233,9 +220,9 @@ GPNT:   DB      LB1,SA2,LB0,SA1,QRET    ; -
 
 ; S,P and P,S: how far P lies to the right of S; P*P (b2 is 0)
 GSPDIS: DB      QXCH                    ; -
-GPSDIS: DB      QDOT,LB2,QSUB,SA0,QRET ; -
+GPSDIS: DB      QDOT,LB2,QSUB,QTOA+QRET ; -
 ; P,P: distance
-GDIST:  DB      QDIF,QHYP,SA0,QRET     ; -
+GDIST:  DB      QDIF,QHYP,QTOA+QRET     ; -
 ; S,S: angle from the first direction to the second, with d = cosine, s = sine:
 ; 2*atg(s/(d+-1)), + for d from 0 up, is it or 180 off
 GANGLE: DB      QCRS,QDOT               ; s d
@@ -243,7 +230,7 @@ GANGLE: DB      QCRS,QDOT               ; s d
         DB      QDIV,QATG,QDBL          ; angle
         DB      Q90,Q90,QDOT,QSIG,QSUB  ; angle 90-+90
         DB      QCRS,QSIG               ; angle 0 or +-180
-        DB      QADD,SA0,QRET          ; -
+        DB      QADD,QTOA+QRET          ; -
 
 ; P/P: a circle through a point; P:D, C:D
 GTHRU:  DB      QDIF,QHYP,QJMP          ; r
@@ -269,8 +256,22 @@ GBELT:  DB      QVEC                    ; x y
         DB      LT3,QSUB,QLEG           ; x y h
         DB      QNEG,LT3,QDIV           ; x y h/d
         DB      LT2,LT3,QDIV,QSB        ; x y
-        DB      QTURN                   ; -
-        DB      QDOT,LA2,QADD,SA2,QRET  ; -
+        DB      QCRS,QDOT,QSA,QSB       ; -
+        DB      QDOT,LA2,QJMP           ; g r
+        DB      GPAR1-$
+; S:P, S:C: the parallel that leaves C along its direction
+GPARC:  DB      QDOT,LB2,QJMP           ; n*c r
+        DB      GPAR1-$
+; S#A, S#(A:P): gamma is kept as seen from the centre of the rotation
+GROTS:  DB      LA2                     ; gamma
+        DB      LA0,LB1,QMUL            ; gamma alpha*x
+        DB      LA1,LB2,QMUL,QADD       ; gamma n*c
+        DB      QSUB,QROTV              ; gamma'
+        DB      QDOT,QJMP               ; gamma' n*c
+        DB      GPAR1-$
+; S:D: the parallel to the right
+GPAR:   DB      LA2,LB0                 ; gamma d
+GPAR1:  DB      QADD,SA2,QRET           ; -
 
 ; Operations of the calculator that geometry adds: byte-code but for QFAR (OPTAB, ops.asm)
 
@@ -309,11 +310,10 @@ XALNG:  DB      QDUP,LB0,QMUL,LA0       ; k k*b0 a0
         DB      QADD,SA0                ; k
         DB      LB1,QMUL,LA1            ; k*b1 a1
         DB      QADD,SA1,QRET           ; -
-; QROTV: a0 a1 turned by b0 degrees; then b0 b1 = the old b1 b2.  QTURN: by the angle whose sine
-; and cosine are b0 and b1
+; QROTV: a0 a1 turned by b0 degrees; then b0 b1 = the old b1 b2
 XROTV:  DB      LB1,LB2            ; x y
         DB      LB0,QSIN,LB0,QCOS,QSB   ; x y           b = sine, cosine:
-XTURN:  DB      QCRS,QDOT,QSA           ; x y           cross is x', dot is y'
+        DB      QCRS,QDOT,QSA           ; x y           cross is x', dot is y'
 ; (fall into XSB)
 ; QSB: b0 b1 = a vector
 XSB:    DB      SB1,SB0,QRET            ; -
@@ -331,5 +331,5 @@ XLEG1:  DB      LT3,LT2,QSUB            ; r-e
         DB      QMUL,QSQRT+QRET         ; h
 
 ; QE6D: takes two numbers, ERR 06 when they are more than 1 um apart
-XE6D:   DB      QSUB,QABS,QMU,QSWP,QSUB ; room
+XE6D:   DB      QSUB,QABS,QMU,QSUB,QNEG ; room
         DB      QE6N+QRET               ; -

@@ -1,7 +1,7 @@
 ; monitor.asm - the prompt and the errors: a line is taken, understood, stored or carried out
 ; Offers: ERR CRRDY READY CHKED ERLOST SFREE FREE
 ; Uses:   [more] [punch] [start] data decimal ends io lexer program run start
-; Room:   228 bytes
+; Room:   233 bytes
 
 ;! CHKF == NXTP+2 and OUTSEL == CHKF+1 -- READY clears NXTP's high byte with CHKF; ERR and RESET take two cells at once
 ;! KEYB == LASTC+1 and LOADF == KEYB+1 and VSUM == LOADF+1 -- BREAK leaves HL -> KEYB; READY comes from VSUM
@@ -108,7 +108,9 @@ READY1: PUSH    D               ; -> behind the tokens
 
 ; CHKED - the line is understood: stores it or carries it out, and goes to READY
 ; In:  at STKTOP-2: -> behind its tokens; the stack holds little more
-CHKED:  LXI     H,TOKS
+CHKED:  MVI     A,CLF           ; (what was parsed has printed nothing: the paper's line is new)
+        STA     LASTC
+        LXI     H,TOKS
         SHLD    TXTP
         MOV     A,M
         CPI     TINPUT          ; in a program only: the answer would take the line's place

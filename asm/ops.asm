@@ -22,7 +22,7 @@ QDUP    EQU 02H         ; x -> x x
 QOVR    EQU 03H         ; x y -> x y x
 QSWP    EQU 04H         ; x y -> y x
 QSQ     EQU 05H         ; x -> x*x
-QDBL    EQU 06H         ; x -> x+x
+QDBL    EQU 06H         ; x -> 2*x
 QNEG    EQU 07H         ; x -> -x
 QFLR    EQU 08H         ; x -> greatest whole number not above
 QSQRT   EQU 09H         ; x -> square root
@@ -52,7 +52,7 @@ QE6N    EQU 1FH         ; x ->    ERR 06 when negative
 OPBYTE  EQU 20H         ; (from here on: byte-code)
 QSA     EQU 20H         ; x y ->  a0 a1 = x y
 QSB     EQU 21H         ; x y ->  b0 b1 = x y
-QVEC    EQU 22H         ; ->      a0 a1
+QTOA    EQU 22H         ; x ->    a0 = x
 QSS     EQU 23H         ; x y -> x*x+y*y
 QHYP    EQU 24H         ; x y -> square root of x*x+y*y
 QWAY    EQU 25H         ; x2 x1 y2 y1 -> w*w  b0 b1 = w: x2-x1 y2-y1
@@ -62,7 +62,7 @@ QUNIT   EQU 28H         ; x y ->  a0 a1 = unit vector, t3 = length; ERR 06 when 
 QE6D    EQU 29H         ; x y ->  ERR 06 when more than 1 um apart
 QTOK    EQU 2AH         ; x y ->  K = b0 b1 = x y
 QMAX    EQU 2BH         ; x y -> the greater
-QTURN   EQU 2CH         ; x y ->  a0 a1 turned, b0 b1 = its sine and cosine; then b0 b1 = x y
+QSXS    EQU 2CH         ; ->      a0 a1 = crossing of the lines a and b; ERR 06
 QCHRD   EQU 2DH         ; -> v*v  chord of nodes 1 and 2: b = v, a = t+u
 QBIAR   EQU 2EH         ; v*v ->  behind QCHRD: MX MY = joint of the biarc; ERR 06
 QMIRR   EQU 2FH         ; b*b -> y x  a mirrored about b; behind QCHRD: the tangent that is not known
@@ -75,7 +75,7 @@ QNORMS  EQU 35H         ; ->      a0 a1, b0 b1 = right normals of C and N at K; 
 QSENS   EQU 36H         ; R ->    negative when a is a circle that R would turn inside out
 QXING   EQU 37H         ; ->      a0 a1 = crossing of C and N as offset
 QCHDA   EQU 38H         ; x y -> dx dy  from a0 a1 to x y, times t0
-QTRAV   EQU 39H         ; x1 y1 x2 y2 -> s  travel on C: its sine times the radii; a, b = both places from the centre
+QVEC    EQU 39H         ; ->      a0 a1
 QPTOK   EQU 3AH         ; ->      K = b0 b1 = P
 QSCL    EQU 3BH         ; x -> x in the scale of the tape
 QCRS    EQU 3CH         ; -> a0*b1-a1*b0
@@ -89,9 +89,9 @@ OPTAB:  DW      ODRP            ; (QRET alone: nothing, then back)
         DW      FSQR,FSIN,FCOS,FTG,FATG,FABS,FINT
         DW      XXCH,XCA,XNA,XJC,XONEL,XFAR,XFITS
         DW      FADD,FSUB,FMUL,OJN,FDIV,OJZ,ODRP,XSIG,XE6N
-        DW      XSA,XSB,XVEC,XSS,XHYP,XWAY
+        DW      XSA,XSB,XTOA,XSS,XHYP,XWAY
         DW      XALNG,XROTV,XUNIT,XE6D,XTOK
-        DW      XMAX,XTURN,XCHRD,XBIAR,XMIRR,XLEG,XCENT
-        DW      XRND,XVK,XNORM,XNORMS,XSENS,XXING,XCHDA,XTRAV
+        DW      XMAX,GSXS,XCHRD,XBIAR,XMIRR,XLEG,XCENT
+        DW      XRND,XVK,XNORM,XNORMS,XSENS,XXING,XCHDA,XVEC
         DW      XPTOK,XSCL,XCRS,XDOT,XSEEN,XDIF
 OPEND:                          ; (its end)

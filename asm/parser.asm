@@ -2,7 +2,7 @@
 ; Offers: EVAL OPFLT NEGVAL FIND ASSIGN SETREF RBNEW RBSET GETREF ERUNS PRVAL MORE EVINT EVPNT EVNUM
 ;         EVKIND ERKIND NOTURN FINT CMPNE
 ; Uses:   calc consts float geom io lexer start value
-; Room:   588 bytes
+; Room:   585 bytes
 ;
 ; Grammar (tokens, equ.asm):
 ;   expression = operand { operator operand }      priorities of language.md, section 2
@@ -101,15 +101,15 @@ OPFN:   PUSH    PSW
         MOV     A,B
         SUI     TK1
         JNC     OPK
-        XRA     A
-        CALL    KINDIS          ; of a number
         PUSH    B
+        MVI     B,KNUM
+        CALL    KINDIS          ; of a number
         DB      CALC,LA0,QEND   ; a
         POP     PSW
         SUI     TSQR-QSQRT      ; the number of its operation
         LXI     B,OPFN1
         JMP     CALOP
-OPFN1:  DB      SA0,QRET       ; -
+OPFN1:  DB      QTOA+QRET       ; -
 
 ; OPK - K1 K2 K3: canonical number A (0...2) of the value
 ; In:  A, a0 a1 a2, VKIND   Out: as EVAL; ERR 04   Clobbers all
@@ -256,10 +256,10 @@ ASSIGN: CALL    GETREF
 
 ; SETREF - gives a name the value
 ; In:  DE = name; a0 a1 a2, VKIND   Clobbers all
-SETREF: CALL    KINDD
-        MOV     A,B
+SETREF: CALL    FIND
+        PUSH    PSW
         CALL    KINDIS
-        CALL    FIND
+        POP     PSW
         JNC     SETR1
         PUSH    D
         LHLD    VBOT
@@ -371,13 +371,12 @@ EVKIND: PUSH    PSW
         CALL    EVAL
         POP     B
         CALL    CHKRET
-        MOV     A,B
 ; (fall into KINDIS)
 
-; KINDIS - demands that the value is of kind A
-; In:  A, VKIND   Clobbers HL
-KINDIS: LXI     H,VKIND
-        CMP     M
+; KINDIS - demands that the value is of kind B
+; In:  B, VKIND   Out: A = B, Z set   Clobbers nothing else
+KINDIS: LDA     VKIND
+        CMP     B
         RZ
 ERKIND: DB      ERROR,EKIND
 

@@ -1,7 +1,7 @@
 ; repeat.asm - routes that are cut again: SYM, REP, RECUT; and SCALE
 ; Offers: SREP SSYM SRECUT SSCALE
 ; Uses:   calc consts cut ends fit float geom io parser route start value
-; Room:   332 bytes
+; Room:   330 bytes
 ;
 ; The route buffer lies between the program and the variables, from PEND+1 to RBEND:
 ; 16 bytes an item, its kind (bit 7: a turn to the right leads to it) and its value in
@@ -82,12 +82,12 @@ STEP1:  LHLD    RSRC            ; (for STEPB)
 ; Out: RJOIN   Clobbers all
 JOINT:  CALL    FITEND
         DB      PEEK
-        CPI     CSEMI
-        MVI     A,0
-        JNZ     JOINT1
+        SUI     CSEMI
+        SUI     1
+        SBB     A               ; 0FFH for a ";", else 0
+        STA     RJOIN
+        RZ
         DB      NEXT
-        RRC                     ; bit 7
-JOINT1: STA     RJOIN
         RET
 
 ; SREP - statement: REP n, angle or rotation

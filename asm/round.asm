@@ -1,7 +1,7 @@
 ; round.asm - where the wire goes, in whole micrometres (tape-3b.md, section "Rounding")
 ; Offers: XRND XFITS XVK XPTOK XTOK
 ; Uses:   calc consts float start
-; Room:   44 bytes
+; Room:   47 bytes
 
 ; QRND: mm to whole um: halves away from zero, 2 nm below a half counts as a half
 XRND:   DB      Q1000,QMUL         ; um
@@ -13,12 +13,12 @@ XRND:   DB      Q1000,QMUL         ; um
 XFITS:  MOV     A,M
         CPI     9BH             ; below 2^26 it has
         RC
-        DB      CALC,Q8DIG,QOVR,QSUB ; x room
+        DB      CALC,QDUP,Q10,QSQ,QSQ,QSQ,QSUB ; x x-1E8
         DB      QJN             ; x
         DB      XFITS1-$
-        DB      QRET
-XFITS1: DB      QEND            ; x
+        DB      QEND            ; x
         DB      ERROR,ETAPE
+XFITS1: DB      QRET            ; x
 
 ; QVK: V = K in whole um; A = K, since the wire goes there
 XVK:    DB      LKX,QDUP,SAX,QRND,SVX   ; -

@@ -1,8 +1,8 @@
 ; route.asm - the route: what is kept of it, what the calculator does for it, and the wire's travel along an element
 ; Offers: CKIND NKIND HELDN RITEMS RELEMS RLASTP RFSTP RFILW RTURN RNAMED FITN FITSM RCORN RKEPT
-;         NEEDEL NOFIL PASSP XTRAV XSEEN XSENS XJC XONEL XNORM XNORMS XCHDA XXING ADVANC
+;         NEEDEL NOFIL XSEEN XSENS XJC XONEL XNORM XNORMS XCHDA XXING PASSP ADVANC
 ; Uses:   [post] calc consts float geom parser start value
-; Room:   238 bytes
+; Room:   241 bytes
 ;
 ; cut.asm says what a route is, and how it is cut.  Distances up to 1 um (QMU) are taken as none.
 
@@ -41,40 +41,11 @@ NOFIL:  LDA     RFILW
         RZ
         DB      ERROR,EGEOM
 
-; PASSP - the wire travels C to K; the contour goes on from P, the corner as drawn
-; In:  as ADVANC, P   Out: as ADVANC, D = P   Clobbers all
-PASSP:  CALL    ADVANC
-        DB      CALC,LPX,SDX,LPY,SDY ; -
-PASSP1: DB      QRET            ; (for WRAP too)
-
-; WRAP - demands that the travel on the circle C, from A to K, differs by no more than half a turn from the travel
-;        as drawn, from D to P: else the wire would leave the element out, or run round all of it
-; In:  C, A, K, D, P; t3 negative when the wire travels more than half a turn   Out: ERR 06
-; Clobbers all
-; The wire's travel is that as drawn, and what its ends are moved by, when the moves are no more than half a turn
-; together: then the sum of their cosines is not negative.  That of the travels may be wrapped around: when one is less
-; than half a turn, the other one more.  The angles from D to K and from A to P have the mean of the two travels.  It is
-; nearer to half a turn than to none when nothing is wrapped around: then the sum of their cosines is not positive.
-WRAP:   LDA     FITSM           ; (between two arcs of one curve corners stay: they touch; not so where the first begins)
-        CPI     2
-        RNC
-        DB      CALC,LDX,LDY,LAX,LAY,QSEEN,QDOT ; c
-        DB      LPX,LPY,LKX,LKY,QSEEN,QDOT,QADD,QE6N ; -
-        DB      LPX,LPY,LDX,LDY,QTRAV ; -s
-        DB      LC2,QABS,QMU,QMUL,QSUB ; -s     none when 1 um backwards
-        DB      LT3,QSIG,QJN    ; -             both in one half
-        DB      PASSP1-$
-        DB      LDX,LDY,LKX,LKY,QSEEN,QDOT ; c
-        DB      LAX,LAY,LPX,LPY,QSEEN,QDOT ; c c
-        DB      QADD,QNEG,QE6N+QRET ; -
-
 ; Operations of the calculator that the route adds
 
-; QTRAV: x1 y1 x2 y2 -> s: from the first direction to the second, as seen from the centre of C
-XTRAV:  DB      QSEEN,QCRS,LC2,QSIG+QRET ; s
 ; QSEEN: x1 y1 x2 y2 -> a, b = these places as seen from the centre of C
 XSEEN:  DB      LC1,QSUB,SB1,LC0,QSUB,SB0 ; x1 y1
-        DB      LC1,QSUB,SA1,LC0,QSUB,SA0,QRET ; -
+        DB      LC1,QSUB,SA1,LC0,QSUB,QTOA+QRET ; -
 ; QSENS: may the element a be offset? Negative: it is a circle that would lose its sense
 XSENS:  DB      QJC
         DB      XSENS1-$
@@ -129,6 +100,12 @@ XXING:  DB      QNA        ; -
         MVI     C,RSTAR
         JMP     BINOPK
 
+; PASSP - the wire travels C to K; the contour goes on from P, the corner as drawn
+; In:  as ADVANC, P   Out: as ADVANC, D = P   Clobbers all
+PASSP:  CALL    ADVANC
+        DB      CALC,LPX,SDX,LPY,SDY ; -
+PASSP1: DB      QRET            ; (for WRAP too)
+
 ; ADVANC - the wire travels C to the corner K
 ; In:  C, A, K, W; RELEMS = 0: C is closed, no travel means the whole circle
 ; Out: A = K, W; ERR 06 when K lies behind A on a line   Clobbers all
@@ -143,13 +120,36 @@ ADVANC: DB      CALC,LKX,LAX,QSUB ; dx
 ADVAN2: DB      LB0,LB1,QFAR    ; negative: within 1 um
         DB      QJN             ; -
         DB      ADVAN3-$
-        DB      LAX,LAY,LKX,LKY,QTRAV ; s       < 0: more than half a turn
+        DB      LAX,LA0,QSUB,LAY,LA1,QSUB,QSA ; -       a = A from the centre
+        DB      QCRS,LC2,QSIG   ; s             < 0: more than half a turn
         DB      ST3,QEND        ; -
         CALL    WRAP
         JMP     ARC
-ADVAN3: DB      Q1,ST3,QEND     ; -             no travel: the corner is the entry place
+ADVAN3: DB      QM1,ST3,QEND    ; -             the corner is the entry place
         LDA     RELEMS
         ORA     A
-        JNZ     WRAP
-        DB      CALC,QM1,ST3,QEND ; -           the whole circle
-        JMP     ARC
+        JZ      ARC             ; the whole circle
+        DB      CALC,Q1,ST3,QEND ; -            no travel
+; (fall into WRAP)
+
+; WRAP - demands that the travel on the circle C, from A to K, differs by no more than half a turn from the travel
+;        as drawn, from D to P: else the wire would leave the element out, or run round all of it
+; In:  C, A, K, D, P; t3 negative when the wire travels more than half a turn   Out: ERR 06
+; Clobbers all
+; The wire's travel is that as drawn, and what its ends are moved by, when the moves are no more than half a turn
+; together: then the sum of their cosines is not negative.  That of the travels may be wrapped around: when one is less
+; than half a turn, the other one more.  The angles from D to K and from A to P have the mean of the two travels.  It is
+; nearer to half a turn than to none when nothing is wrapped around: then the sum of their cosines is not positive.
+; Within 1 um of none the travel as drawn is none, but at a corner that a point names, where TL is 0, a whole turn.
+WRAP:   LDA     FITSM           ; (between two arcs of one curve corners stay: they touch; not so where the first begins)
+        CPI     2
+        RNC
+        DB      CALC,LDX,LDY,LAX,LAY,QSEEN,QDOT ; c
+        DB      LPX,LPY,LKX,LKY,QSEEN,QDOT,QADD,QE6N ; -
+        DB      LPX,LPY,LDX,LDY,QSEEN,QCRS,LC2,QSIG ; -s   s: sine of the travel as drawn, times the radii
+        DB      LC2,QABS,QMU,LTL,QNEG,QSIG,QMUL,QADD ; -s
+        DB      LT3,QSIG,QJN    ; -             both in one half
+        DB      PASSP1-$
+        DB      LDX,LDY,LKX,LKY,QSEEN,QDOT ; c
+        DB      LAX,LAY,LPX,LPY,QSEEN,QDOT ; c c
+        DB      QADD,QNEG,QE6N+QRET ; -

@@ -1,7 +1,7 @@
 ; tape.asm - moves in whole micrometres, as 3B blocks (tape-3b.md)
 ; Offers: RUNCEL RUNLEN REPOS STOP PUNDS ENTER HOME MOVE PUTBLK ARCZ
 ; Uses:   [more] [punch] calc consts float geom io lexer round start
-; Room:   276 bytes
+; Room:   274 bytes
 ;
 ; The wire stands at W, the move goes to V; everything is made from these rounded
 ; values; ARC (arc_3b.asm, arc_nodrift.asm) does the arcs.
@@ -27,8 +27,8 @@ REPOS:  LXI     H,RMOVED
         INR     M
         DB      CALC,SWY,SWX,SHY,SHX ; -
 REPOS2: DB      QRET            ; (for PUTBLK too)
-REPOS1: DB      CALC,LWY,QSUB,Q1000,QDIV,QRND,QDRP ; x y x'
-        DB      LWX,QSUB,Q1000,QDIV,QRND,QDRP ; x y
+REPOS1: DB      CALC,LWY,QSUB,QABS,QFITS,QDRP ; x y x'
+        DB      LWX,QSUB,QABS,QFITS,QDRP ; x y
         DB      SHY,SHX,QEND    ; -
         CALL    STOP
         CALL    HOME

@@ -1,7 +1,7 @@
 ; tol.asm - TOL: few arcs for many nodes, spans of a curve are held back and tried as one (curves.md)
 ; Offers: STOL HOLD FLUSH
 ; Uses:   calc consts corner fit float geom parser route start
-; Room:   216 bytes
+; Room:   215 bytes
 ;
 ; With TOL the span that ends in node 1 is held back: KEPT is the node where it begins, HELD
 ; has the places of the nodes behind that one, node 1's the last.  When node 2 comes and the
@@ -66,7 +66,7 @@ TRY:    LDA     HELDN
         RNC                     ; none, or more than 15
         DB      CALC,QCHRD,QMU,QDOT,QSUB,QJN ; v*v   (not of half a circle, where rounding decides)
         DB      TRY1-$
-        DB      QDRP,QRET       ; -             begins or ends backwards (QRET leaves Z clear)
+        DB      QDRP+QRET       ; -             begins or ends backwards (it leaves Z clear)
 TRY1:   DB      QBIAR,QEND      ; -
         LXI     D,MNODE1
         CALL    ARCW            ; w*w

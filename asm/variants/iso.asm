@@ -24,7 +24,7 @@ RFEED   EQU MWORK+25    ; feed in the plane; 0: none yet
 RDOWN   EQU MWORK+30    ; feed downwards
 RCUTZ   EQU MWORK+35    ; cutting height, in whole um above 5 mm: a run begins with 0
 RTRAVZ  EQU MWORK+40    ; travel height, likewise
-RSETZ   EQU MWORK+45    ; not 0 = there has been a Z
+RSETZ   EQU MWORK+45    ; 0FFH = there has been a Z
 RGNUM   EQU MWORK+46    ; the block's G, 0 to 3
 
 RPUNF   EQU MREG+320    ; behind the registers, with room for a value: the last F that was punched; 0: none

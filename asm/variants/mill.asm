@@ -1,7 +1,7 @@
 ; mill.asm - the statements of milling: F, Z, M, G, HOLE (milling.md)
 ; Offers: SFREES SFEED SHGHT SPREP SMISC SHOLE
 ; Uses:   [post] calc consts corner cut float geom monitor parser round route start value
-; Room:   286 bytes
+; Room:   290 bytes
 
 LASTW   EQU 99          ; greatest number of M, G and T
 
@@ -34,7 +34,8 @@ PAIR:   LXI     D,MT0
 FARG:   CALL    EVNUM
         RNZ
         DB      CALC,LA0,QMU,QSUB ; a
-        DB      Q8DIG,LA0,QSUB,QMUL,QSQRT,QDRP ; - (the root refuses what is negative)
+        DB      Q10,QSQ,QSQ,QSQ,Q1,QSUB ; a 99999999
+        DB      LA0,QSUB,QMUL,QSQRT,QDRP ; - (the root refuses what is negative)
         DB      LA0,QRET        ; x
 
 ; ZARG - takes a height
@@ -58,7 +59,7 @@ SHGHT1: DB      CHKEND
         CALL    NOROUT
         LXI     H,RCUTZ
         CALL    PAIR
-        MVI     M,1             ; RSETZ
+        MVI     M,0FFH          ; RSETZ
         RET
 
 ; NOROUT - demands that no route is open
@@ -148,8 +149,9 @@ SHOLE:  CALL    EVPNT
 ; In:  a point as value   Out: H = W = it; ERR 06, ERR 03, ERR 10   Clobbers all, the float stack too
 HOLE:   CALL    NOROUT
         LDA     RSETZ
-        ORA     A
-        JZ      ERUNS
+        LXI     H,RFEED
+        ANA     M
+        JZ      ERUNS           ; (before anything is done)
         CALL    SCALED
         DB      CALC,QVEC,LA0,QRND,LA1,QRND,QEND ; x y x' y'  ERR 10, before anything is done
         CALL    REPOS

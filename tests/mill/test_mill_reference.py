@@ -152,7 +152,8 @@ def test_blocks(statements: list[str], wanted: list) -> None:
     (["CUT O", "G 81"], 5, ["M0"]),
     # HOLE
     (["HOLE O"], 3, []),
-    (["Z 0", "HOLE O,O"], 3, ["G0Z5", "G0X0Y0"]),
+    (["Z 0", "HOLE O,O"], 3, []),
+    (["F 1", "HOLE O,O"], 3, []),
     (["F 1", "Z 0", "HOLE O,5"], 4, ["G0Z5", "G0X0Y0", "G1Z0F1", "G0Z5"]),
     (["CUT O", "HOLE (1,1)"], 6, ["M0"]),
     (["HOLE 5"], 4, []),

@@ -258,12 +258,25 @@ def test_travel_is_forward() -> None:
 
 
 def test_no_travel_on_a_circle_within_a_micrometre() -> None:
-    assert blocks("FROM (7,0)", "CUT O:5,(5,0.0005),(7,0.0005)") == [
-        left(2),
-        "B2000B1B2000GXL1",
-        "DD",
-    ]
+    assert blocks("FROM (7,0)", "CUT O:5,(5,0.0005)") == [left(2), "DD"]
     assert blocks("FROM (7,0)", "CUT O:5,(5,0.0011),(7,0.0011)")[1] == "B5000B0B1GYNR1"
+
+
+@pytest.mark.parametrize(
+    "items",
+    [
+        "(20,0),(5,0),O:5,(5,0),(20,0)",
+        "(20,0),(5,0),O:5,(5,0.0009),(20,0)",
+        "(5,0),O:5,(5,0),(20,0),(20,5)",
+        "(5,0),(20,0),(20,5),(5,0),O:5",
+    ],
+)
+def test_a_circle_between_two_points_at_one_place(items: str) -> None:
+    """Not dropped: error 6, unless R leaves most of the turn."""
+    for r in ("R=0", "R=-1"):
+        error = cut(r, f"CUT {items}", "BACK").error
+        assert error and error[0] == 6, r
+    assert "B5916B1000B22000GYNR1" in blocks("R=1", "CUT (20,0),(5,0),O:5,(5,0),(19,0)")
 
 
 def test_open_end() -> None:

@@ -37,8 +37,9 @@ CASES = {
     "fillet at the first point, named again": Case("CUT (-5,0),O:5,(-5,0),0.5,(-20,0)", "B5000B0B5000GXL3 D", 6),
     # It takes away the beginning of the element behind it: here as far as that goes, and further.
     "closing fillet at the entry of a circle": Case(
-        "FROM (10,0) | CUT O:5;X,Y:20,(20,10),(5,0),1 | BACK",
-        "B5000B0B5000GXL3 B15000B0B15000GXL1 B0B10000B10000GYL2 B13692B9128B13692GXL3 B555B832B884GYSR4 D",
+        "FROM (10,2) | CUT O:5;X,Y:20,(20,10),(5,0),1 | BACK",
+        "B5097B1019B5097GXL3 B4903B981B19019GYNR1 B15000B0B15000GXL1 B0B10000B10000GYL2 B13692B9128B13692GXL3 "
+        "B555B832B884GYSR4 D",
         6,
     ),
     "fillet longer than the arc behind it": Case(

@@ -443,6 +443,10 @@ def test_read_and_data(board: Board) -> None:
     assert board.type("RUN")[-1] == "ERR 08 LINE 50"
     lines(board, "RESTORE 10", "READ J3")
     assert board.type("PRINT J3") == ["1"]
+    # An item that is refused is not used up.
+    assert fault(board.type("READ P5")) == (4, None)
+    lines(board, "READ J5")
+    assert board.type("PRINT J5") == ["4"]
 
 
 @pytest.mark.parametrize("bad", ["READ", "READ 1", "READ A,", "DATA", "DATA 1,", "DATA 1;2", "RESTORE A", "INPUT",
@@ -488,6 +492,13 @@ def test_ctrl_c_at_input(board: Board) -> None:
     assert board.machine.run() == "prompt"
     assert board.machine.tty.endswith("? \r\nERR 10 LINE 10\r\n>")
     assert fault(board.type("PRINT 1/0")) == (5, None)
+
+
+def test_an_error_stands_on_the_next_line(board: Board) -> None:
+    """What a line prints while it is only parsed, a blank between two items, is on no paper."""
+    before = board.machine.printed
+    board.type("PRINT 1/0,2")
+    assert board.machine.paper_from(before).endswith("PRINT 1/0,2\r\nERR 05\r\n>")
 
 
 def test_an_answer_too_long_or_too_deep_is_asked_again(board: Board) -> None:

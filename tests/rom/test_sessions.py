@@ -75,6 +75,8 @@ def test_sessions_hold_what_is_looked_for() -> None:
         ],
         ["FROM O", "FROM (5,5)\t^C 1", "CUT (6,6),(7,6)", "BACK"],
         ["10 INPUT P,A", "20 CUT O,P,(A,A),(A,0)", "RUN\t? 1/0\t? (3,0)\t? 4\t^C 2", "PRINT P,A", "GOTO 20"],
+        # An item of DATA that is refused is not used up.
+        ["10 DATA (1,2),3", "READ A", "READ P,A", "PRINT P,A"],
         # A program gone on with behind an error.
         ["10 FROM O", "20 CUT O,(10,0),(10,10)", "30 CUT Q", "40 BACK", "RUN", "30 REM", "GOTO 40", "GOTO 20"],
         ["RUN", "CUT O,(1,0)", "RUN", "CUT O,(1,0)", "END"],

@@ -369,9 +369,8 @@ class Interpreter:
         data = self._data()
         if self.data_at >= len(data):
             raise Fault(Code.DATA)
-        value = self.evaluate(data[self.data_at][1])
+        self._store(key, self.evaluate(data[self.data_at][1]))
         self.data_at += 1
-        self._store(key, value)
 
     def _input(self, name: Name) -> None:
         key = self._target(name)

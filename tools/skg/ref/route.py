@@ -273,7 +273,8 @@ class Route:
         drawn = p if p is not None else _chosen(crossings(e.nominal, f.nominal, TOUCH), right)
         arc = None if fillet is None else self._fillet(e, f, drawn, fillet)
         if arc is None:
-            return replace(f, start=self._travel(e, self._corner(e, f, p, right), "cut", drawn), drawn=drawn)
+            end = self._travel(e, self._corner(e, f, p, right), "cut", drawn, p is not None)
+            return replace(f, start=end, drawn=drawn)
         circle, touch_e, touch_f = arc
         if not _same_offset(e.offset, f.offset):
             raise Fault(Code.GEOMETRY)
@@ -330,10 +331,11 @@ class Route:
         """Angle travelled on a circle from where it was entered; 0 for an end within 1 µm of that place."""
         return ZERO if same_point(e.start, end) else sweep(e.curve, e.start, end)
 
-    def _travel(self, e: Element, end: Point, role: str, drawn: Point | None = None) -> Point:
+    def _travel(self, e: Element, end: Point, role: str, drawn: Point | None = None, is_named: bool = False) -> Point:
         """Put out e from where it was entered to its end; returns where the wire then is.
 
-        `drawn`: its end as drawn; None: a circle's travel is not compared with that as drawn.
+        `drawn`: its end as drawn; None: a circle's travel is not compared with that as drawn. `is_named`: by a point;
+        two such places in one are a whole turn.
         """
         if isinstance(e.curve, Line):
             back = -(end - e.start).dot(e.curve.direction)
@@ -343,7 +345,7 @@ class Route:
             return end
         angle = self._circle_travel(e, end)
         if drawn is not None:
-            _check_half_turn(angle - _drawn_travel(e, drawn))
+            _check_half_turn(angle - _drawn_travel(e, drawn, is_named))
             _check_half_turn(abs(_move(e, e.drawn, e.start)) + abs(_move(e, drawn, end)))
         if self.curves == 1 and role == "cut" and self.first_end is None:
             self.first_end = end
@@ -439,11 +441,16 @@ def _moved_inwards(curve: Curve, radius: Real) -> Curve:
     return moved
 
 
-def _drawn_travel(e: Element, end: Point) -> Real:
-    """Angle travelled on a circle as drawn, radians: 0 for an end that lies up to 1 µm behind its entry."""
+def _drawn_travel(e: Element, end: Point, is_named: bool) -> Real:
+    """Angle travelled on a circle as drawn, radians: for an end that lies within 1 µm of its entry 0, but where a
+    point names it 2π."""
     angle = sweep(e.nominal, e.drawn, end)
-    behind = (2 * real.mp.pi - angle) * abs(e.nominal.r)
-    return ZERO if near.at_most(behind, MICRON, "half a turn") else angle
+    full = 2 * real.mp.pi
+    if near.at_most((full - angle) * abs(e.nominal.r), MICRON, "half a turn"):
+        return full if is_named else ZERO
+    if is_named and near.at_most(angle * abs(e.nominal.r), MICRON, "half a turn"):
+        return full
+    return angle
 
 
 def _move(e: Element, drawn: Point, offset: Point) -> Real:

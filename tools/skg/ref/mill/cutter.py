@@ -56,7 +56,7 @@ class MillCutter(Cutter):
     def drill(self, p: Point) -> None:
         """A point of HOLE."""
         self.refuse_in_route()
-        if self.tape.cutting is None:
+        if self.tape.cutting is None or self.tape.feed is None:
             raise Fault(Code.NO_VALUE)
         self.position(p)
         self.tape.lower()
