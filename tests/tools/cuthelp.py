@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import json
+import re
 from collections.abc import Iterator
 from math import cos, sin
 from pathlib import Path
+from typing import Any
 
 import ezdxf
 import pytest
 import shapely
 from ezdxf.document import Drawing
+from facthelp import says
 from oneblock import run_block
 from shapely.geometry import Polygon
 from toolhelp import Run
@@ -17,6 +21,7 @@ from toolhelp import Run
 from skg import tape as tapes
 from skg.errors import UserError
 from skg.geometry.plane import XY
+from skg.messages.finding import Phrase
 from skg.tape.block import Block
 
 #: A tape may be this far from the drawing, mm; arcs are handed to shapely as chords this near.
@@ -75,6 +80,18 @@ def apart(one: shapely.Geometry, other: shapely.Geometry) -> float:
         one.segmentize(0.02).hausdorff_distance(other),
         other.segmentize(0.02).hausdorff_distance(one),
     )
+
+
+def start_holes(report: str) -> list[tuple[str, str]]:
+    """The places of the start holes in the text of a report, as it has them."""
+    (line,) = (line for line in report.splitlines() if says(line, Phrase("order-of-cutting")))
+    return re.findall(r"\((-?[\d.]+), (-?[\d.]+)\)", line)
+
+
+def values_of(code: str, run: Run, *words: object) -> list[dict[str, Any]]:
+    """The values of the findings of a code, as `skg cut --json` gives them, with their places."""
+    report = json.loads(run("cut", *words, "--json").stderr)
+    return [one["values"] | {"place": one.get("place")} for one in report["findings"] if one["code"] == code]
 
 
 def run_failing(run: Run, *words: object) -> str:

@@ -5,12 +5,14 @@ The judge has nothing of skg's reading: the entities as ezdxf draws them, the ta
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Callable
 from itertools import pairwise
 from math import cos, hypot, pi, sin
 from pathlib import Path
 from random import Random
+from typing import Any
 
 import numpy as np
 import pytest
@@ -23,12 +25,15 @@ from toolhelp import Run
 from skg.checking.check_drawn import NEAR, Named, off_drawn
 from skg.geometry.contour import Contour, Edge
 from skg.geometry.plane import XY
+from skg.messages.finding import Phrase
 from skg.reading.chain import chain
 
+Report = dict[str, Any]
 #: The tape may be so far from the file where nothing is said, mm; what is measured here is so exact.
 LIMIT, EXACT = 0.005, 0.0006
-_PLACE = re.compile(r"\((-?[\d.]+), (-?[\d.]+)\)")
-_SIZE = re.compile(r"(?<![\d.])([\d.]+) mm")
+#: Findings of what was mended: where the tape may be further from the file, by their sizes.
+_MENDS = {"ends-joined", "edge-too-short", "overruns", "loops", "whiskers", "lines-twice", "lines-overlap"}
+_SIZES = ("gap", "length", "longest")
 
 
 def nominal(page: Drawing) -> shapely.MultiLineString:
@@ -49,25 +54,24 @@ def nominal(page: Drawing) -> shapely.MultiLineString:
     )
 
 
-def wire(tape: bytes, report: str) -> shapely.MultiLineString:
+def wire(tape: bytes, report: Report) -> shapely.MultiLineString:
     """The tape's path between the ways from and to its start holes."""
-    holes = re.search(r"start holes?: (\(.*\))", report)[1]
-    start = tuple(map(float, _PLACE.search(holes).groups()))
+    start = tuple(report["starts"][0])
     return shapely.MultiLineString([places[1:-1] for places in stretches(tape, start) if len(places) > 3])
 
 
-def named(report: str) -> list[tuple[XY, float]]:
+def named(report: Report) -> list[tuple[XY, float]]:
     """The places that a report names where a drawing was mended, each with its size, mm."""
     result = []
-    for line in report.splitlines():
-        if not says(line, re.compile("joined|not cut|trimmed|loop|twice|overlap")):
-            continue
-        size = max(map(float, _SIZE.findall(line)), default=LIMIT)
-        result += [((float(x), float(y)), size) for x, y in _PLACE.findall(line)]
+    for finding in report["findings"]:
+        if finding["code"] in _MENDS:
+            values = finding["values"]
+            size = max((values[name] for name in _SIZES if name in values), default=LIMIT)
+            result += [(place, size) for place in values.get("places", [finding["place"]])]
     return result
 
 
-def unsaid(page: Drawing, tape: bytes, report: str) -> float:
+def unsaid(page: Drawing, tape: bytes, report: Report) -> float:
     """The largest distance of tape and file, both ways, where the report names no mend, mm."""
     drawn, cut = nominal(page), wire(tape, report)
     excused = shapely.union_all([shapely.Point(place).buffer(size + 2 * LIMIT) for place, size in named(report)])
@@ -180,7 +184,7 @@ def test_each_mend_is_said(mend: Callable[[Random, Drawing], list[str]], seed: i
     page = drawing()
     options = mend(Random(f"{mend.__name__} {seed}"), page)
     part, tape = saved(page, tmp_path), tmp_path / "part.3b"
-    report = run("cut", part, "-o", tape, *options).stderr
+    report = json.loads(run("cut", part, "-o", tape, *options, "--json").stderr)
     assert unsaid(page, tape.read_bytes(), report) < LIMIT + EXACT, report
 
 
@@ -189,9 +193,9 @@ def test_the_judge_sees_what_is_not_said(run: Run, tmp_path: Path) -> None:
     page = drawing()
     options = whole_gaps(Random(1), page)
     part, tape = saved(page, tmp_path), tmp_path / "part.3b"
-    report = run("cut", part, "-o", tape, *options).stderr
-    assert says(report, "joined")
-    kept = "\n".join(line for line in report.splitlines() if not says(line, "joined"))
+    report = json.loads(run("cut", part, "-o", tape, *options, "--json").stderr)
+    assert any(finding["code"] == "ends-joined" for finding in report["findings"])
+    kept = report | {"findings": [finding for finding in report["findings"] if finding["code"] != "ends-joined"]}
     assert unsaid(page, tape.read_bytes(), report) < LIMIT + EXACT < unsaid(page, tape.read_bytes(), kept)
 
 
@@ -201,7 +205,8 @@ def test_what_overlaps_is_cut_once(seed: int, run: Run, tmp_path: Path) -> None:
     page = drawing()
     overlaps(Random(seed), page)
     report = run("cut", saved(page, tmp_path), "-o", tmp_path / "a.3b", "--offset", "0.1").stderr
-    assert says(report, "2 contours", "2 closed", re.compile("190.26(54|55) mm")) and says(report, "drawn twice")
+    read = Phrase("contours-read", count=2), Phrase("count-closed", count=2), re.compile(r"\b190\.26(54|55)\b")
+    assert says(report, *read) and says(report, Phrase("lines-twice"))
 
 
 def lines(*ends: tuple[float, float, float, float]) -> Drawing:
@@ -216,14 +221,16 @@ def test_parts_that_share_an_edge_are_no_overlap(run: Run, tmp_path: Path) -> No
     large = [(0, 0, 40, 0), (40, 0, 40, 20), (40, 20, 0, 20), (0, 20, 0, 0)]
     small = [(10, 0, 20, 0), (20, 0, 20, -9), (20, -9, 10, -9), (10, -9, 10, 0)]
     report = run("cut", saved(lines(*large, *small), tmp_path), "-o", tmp_path / "a.3b").stderr
-    assert says(report, "2 contours", "2 closed", "158 mm")
+    assert says(report, Phrase("contours-read", count=2, length=158), Phrase("count-closed", count=2))
 
 
 def test_a_line_on_another(run: Run, tmp_path: Path) -> None:
     """An open line within an open line is cut with it."""
     part = saved(lines((0, 0, 40, 0), (30, 0, 10, 0), (40, 0, 40, 9)), tmp_path)
     report = run("cut", part, "-o", tmp_path / "a.3b").stderr
-    assert says(report, "1 contour", "1 open", "49 mm") and says(report, "1 edge", "drawn twice")
+    assert says(report, Phrase("contours-read", count=1, length=49), Phrase("count-open", count=1)) and says(
+        report, Phrase("lines-twice", count=1)
+    )
 
 
 #: An outline that has a spur and is open at a corner, around two holes; around one.
@@ -237,10 +244,10 @@ def test_an_outline_that_is_lost_is_refused(holes: int, run: Run, tmp_path: Path
     for hole in range(holes):
         page.modelspace().add_circle((10 + 15 * hole, 10), 3)
     words = ("cut", saved(page, tmp_path), "-o", tmp_path / "a.3b")
-    assert says(run_failing(run, *words, "--offset", "0.1"), "encloses", "--open cut")
+    assert says(run_failing(run, *words, "--offset", "0.1"), Phrase("outline-lost"), "--open cut")
     assert not (tmp_path / "a.3b").exists()
     for more in (["--offset", "0.1", "--open", "cut"], ["--offset", "0.1", "--open", "leave"], []):
-        assert f"{holes} closed" in run(*words, *more).stderr
+        assert says(run(*words, *more).stderr, Phrase("contours-read"), Phrase("count-closed", count=holes))
 
 
 #: The plate of the fault: its left edge ends 0.2 mm above the corner.
@@ -254,10 +261,10 @@ def test_a_joined_gap_tilts_nothing(run: Run, tmp_path: Path) -> None:
         page.modelspace().add_line(*ends)
     part, tape, program = saved(page, tmp_path), tmp_path / "part.3b", tmp_path / "part.skg"
     words = ("cut", part, "-o", tape, "--program", program, "--offset", "0.1")
-    assert says(run_failing(run, *words), "0.2 mm", "--tolerance")
+    assert says(run_failing(run, *words), Phrase("open-refused"), Phrase("first-gap", gap=0.2), "--tolerance")
     for quiet in ([], ["--quiet"]):
         report = run(*words, "--tolerance", "0.21", *quiet).stderr
-        assert says(report, "joined", "0.2 mm", "(0, 0.1)")
+        assert says(report, Phrase("ends-joined", gap=0.2, place=(0, 0.1)))
     assert "(0,0)" in program.read_text() and "(30,0)" in program.read_text()
 
 

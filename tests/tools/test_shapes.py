@@ -18,6 +18,7 @@ from skg.errors import UserError
 from skg.geometry.plane import XY
 from skg.machine.board import ErrorLine
 from skg.machine.feeding import MEMORY_FULL, Fed, feed
+from skg.messages.finding import Phrase
 from skg.ref import run as reference
 from skg.tape.block import Block
 
@@ -93,7 +94,7 @@ def test_a_gear_is_one_tooth(run: Run, tmp_path: Path, words: list[object], offs
     """The program has one tooth and REP: a board of 4 KiB stores it. The tape is the reference's, and it closes."""
     teeth = words[3]
     result = run("gear", *words, "--offset", offset, "--tape", tmp_path / "gear.3b")
-    assert says(result.stderr, "ROM", "8 KiB", "stored program")
+    assert says(result.stderr, Phrase("made-stored", ram=8))
     program = result.stdout
     assert program.count(f"REP {teeth},360/{teeth}\n") == 1
     assert sum(line.split()[1:2] == ["GOSUB"] for line in program.splitlines()) == 2  # (the flanks of one tooth)
@@ -121,7 +122,7 @@ def test_a_gear_tooth_by_tooth(run: Run, monkeypatch: pytest.MonkeyPatch) -> Non
     monkeypatch.setattr(ladder, "feed_routes", small_one_by_one)
     again = run("gear", *words)
     assert "REP" not in again.stdout and again.stdout.count("CUT") > 12
-    assert says(again.stderr, "1 closed contour", "µm")
+    assert says(again.stderr, Phrase("checked"), Phrase("closing", count=1))
 
 
 def test_gear_with_a_keyway(run: Run, tmp_path: Path) -> None:

@@ -13,6 +13,7 @@ from toolhelp import CAD_TAPE, Run
 
 from skg import tape as tapes
 from skg.errors import UserError
+from skg.messages.finding import Phrase
 from skg.tape import Block, Stop, Tape
 from skg.tape.styles import STYLES, read_any, to_style
 
@@ -246,8 +247,8 @@ def test_check_says_what_is_different(run: Run, tmp_path: Path) -> None:
     result = run("check", path)
     assert result.exit_code == 1
     assert len(result.stdout.splitlines()) == 21
-    assert says(result.stdout.splitlines()[-1], "more", "--all")
-    assert says(result.stderr, "style", "block number", "blank")
+    assert says(result.stdout.splitlines()[-1], Phrase("more-findings"))
+    assert says(result.stderr, Phrase("other-style-read"), Phrase("style-numbers"), Phrase("style-blanks"))
     assert len(run("check", "--all", path).stdout.splitlines()) > 98
     path.write_text("  0\nSECTION\n  2\nENTITIES\n" * 1000)
     result = run("check", path)

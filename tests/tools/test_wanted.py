@@ -14,6 +14,7 @@ from skg.errors import UserError
 from skg.geometry.contour import Contour, Edge
 from skg.job.job import MachineSetup
 from skg.job.wanted import Wanted
+from skg.messages.finding import Phrase
 from skg.planning.plan import plan
 
 OFFSET = Wanted(offset=0.1)
@@ -77,7 +78,12 @@ def test_order() -> None:
     wanted[5], wanted[1] = replace(OFFSET, order=1), replace(OFFSET, order=3)
     assert cut(holes, wanted) == [5, 2, 1, 3, 4, 0]
     wanted[0] = replace(OFFSET, order=2)
-    with pytest.raises(UserError, match=pattern("outline from (0, 0)", re.compile(r"contour [3-6] \(opening"))):
+    with pytest.raises(
+        UserError,
+        match=pattern(
+            Phrase("outer-first"), Phrase("contour-name", start=(0, 0)), re.compile(r"contour [3-6] \(opening")
+        ),
+    ):
         plan(holes, [], wanted)
 
 
@@ -86,7 +92,7 @@ def test_start_holes_of_the_drawing_go_to_what_is_cut() -> None:
     wanted = [replace(OFFSET, cut=False), replace(OFFSET, start=(6.0, 6.0)), OFFSET, replace(OFFSET, cut=False)]
     routes = {route.number: route for route in plan(plate(), [(21.5, 10.0)], wanted)}
     assert routes[1].start == (6.0, 6.0) and routes[2].start == (21.5, 10.0)
-    with pytest.raises(UserError, match=pattern("2 start holes", 1)):
+    with pytest.raises(UserError, match=pattern(Phrase("too-many-holes", count=2, contours=1))):
         plan(plate(), [(21.5, 10.0), (1.0, 1.0)], wanted)
 
 
