@@ -114,3 +114,22 @@ def test_one_contour_of_many(run: Run, tmp_path: Path) -> None:
         assert len(made[member][0]) == count
     areas = sorted(shapely.area(way) for way in made["die"][0])
     assert areas[0] == pytest.approx(areas[1], rel=1e-4)
+
+
+def test_what_falls_and_what_the_control_must_know(run: Run, tmp_path: Path) -> None:
+    """In passes the punch comes free, of the die the slug; each file says which offsets the control needs."""
+    words = ["--offset", "0.1", "--clearance", "0.02", "--passes", "0.05,0", "--machine", "wire-fanuc"]
+    done = run("cut", profile(tmp_path), "-o", tmp_path / "tool.nc", "--json", *words)
+    reports = json.loads(done.stderr)
+    values = {
+        member: {finding["code"]: finding["values"] for finding in report["findings"]}
+        for member, report in reports.items()
+    }
+    assert "parts-free" in values["punch"] and "parts-free" not in values["die"]
+    offsets = {
+        member: [each["values"]["offset"] for each in told["offsets-to-be-set"]["offsets"]]
+        for member, told in values.items()
+    }
+    assert offsets == {"punch": [0.15, 0.1, 0.13, 0.08], "die": [0.15, 0.1]}
+    texts = {member: (tmp_path / f"tool-{member}.nc").read_text() for member in values}
+    assert "D4" in texts["punch"] and "D2" in texts["die"] and "D3" not in texts["die"]

@@ -395,6 +395,7 @@ def _cut(
     """Cut the drawing and write the files: each result, and what there is to say of the tape's name; None: its layers
     were listed."""
     from skg.cutting import holes as holes_files
+    from skg.dialects.compensated import to_be_set
     from skg.pipeline.pairing import named
     from skg.pipeline.placing import told_as_drawn
     from skg.pipeline.steps import cut_all, open_drawing, written
@@ -461,7 +462,10 @@ def _cut(
             stream.write(made)
     result: list[tuple[CutDrawing, list[Finding]]] = []
     for cut, name in zip(cuts, names, strict=True):
-        more = unmarked(name.output, cut.result.tape, job.machine.rom) if dialect is None else []
+        if dialect is None:
+            more = unmarked(name.output, cut.result.tape, job.machine.rom)
+        else:
+            more = to_be_set(cut.result.routes, dialect)
         if name.holes:
             more = [*holes_files.findings(cut.result.routes, thick, name.holes), *more]
         result.append((cut, [*_used(setup, kept, job), *more] if setup is not None and not result else more))

@@ -77,8 +77,8 @@ def stops(routes: Sequence[PlannedContour]) -> Iterator[Phrase]:
     many = [route for route in routes if len(route.tabs.each) > 1]
     for group, code in (
         (routes[1:], "stop-before"),
-        ([route for route in twice if route.is_opening], "stop-slug"),
-        ([route for route in twice if not route.is_opening], "stop-free"),
+        ([route for route in twice if route.frees == "slug"], "stop-slug"),
+        ([route for route in twice if route.frees == "part"], "stop-free"),
         (many, "stop-further-hole"),
         (many, "stop-each-tab"),
         (held["part"], "stop-tab"),

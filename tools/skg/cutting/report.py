@@ -128,7 +128,7 @@ def _manners(routes: list[PlannedContour], offset: float) -> Iterator[Finding]:
     free = [
         route.turn
         for route in routes
-        if route.contour.is_closed and len(route.passes) > 1 and not route.tabs.each and not route.is_opening
+        if route.contour.is_closed and len(route.passes) > 1 and not route.tabs.each and route.frees == "part"
     ]
     if free:
         yield Finding("parts-free", count=len(free), contours=in_brackets(free))

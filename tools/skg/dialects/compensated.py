@@ -13,7 +13,7 @@ from skg.geometry.contour import Edge
 from skg.geometry.offset import as_arcs
 from skg.geometry.piece import Piece
 from skg.geometry.plane import XY
-from skg.messages.finding import Finding
+from skg.messages.finding import Finding, Phrase
 from skg.planning.planned import PlannedContour, Reason
 from skg.planning.runs import Lead, Run
 from skg.tape.block import micrometres
@@ -28,7 +28,7 @@ def compensated(routes: Sequence[PlannedContour], dialect: GcodeDialect, feed: f
     A contour of which the wire leaves edges out is a `UserError`: a control would stop there.
     """
     routes = [_as_drawn(route) for route in routes]
-    offsets = list(dict.fromkeys(_beside(run) for route in routes for run in route.runs() if run.offset))
+    offsets = _offsets(routes)
     words, writer = dialect.compensation, GcodeWriter(dialect)
     assert words  # (its caller asks for them)
     path: list[Piece] = []
@@ -54,6 +54,20 @@ def compensated(routes: Sequence[PlannedContour], dialect: GcodeDialect, feed: f
             _Cut(writer, path, decimal(feed)).run(run, hole, filled)
     writer.all_of(dialect.foot)
     return writer.text, path
+
+
+def _offsets(routes: Sequence[PlannedContour]) -> list[int]:
+    """The offsets of routes along their contours, by their numbers from 1, um."""
+    return list(dict.fromkeys(_beside(run) for route in routes for run in route.runs() if run.offset))
+
+
+def to_be_set(routes: Sequence[PlannedContour], dialect: GcodeDialect) -> list[Finding]:
+    """Tell which offsets the control must have for the program of some routes, where that does not define them."""
+    if not dialect.compensation or dialect.compensation.define:
+        return []
+    offsets = _offsets([_as_drawn(route) for route in routes])
+    numbered = (Phrase("offset-of-number", number=at, offset=offset / 1000) for at, offset in enumerate(offsets, 1))
+    return [Finding("offsets-to-be-set", offsets=tuple(numbered))] if offsets else []
 
 
 class _Cut:

@@ -55,6 +55,7 @@ _CARE = frozenset(
         "no-slug-has-tab",
         "on-the-line",
         "open-on-line",
+        "offsets-to-be-set",
         "openings-in-part",
         "outlines-in-frame",
         "outlines-in-open-line",

@@ -246,7 +246,7 @@ class PlannedContour:
         else:
             for index, r in enumerate(self.passes):
                 falls = "IS" if index == 1 and len(self.passes) > 1 else ""
-                stop = falls and ("TAKE THE SLUG OUT" if self.is_opening else "THE PART IS FREE")
+                stop = falls and ("TAKE THE SLUG OUT" if self.frees == "slug" else "THE PART IS FREE")
                 run = self._around(Run(self.chain, r, index, stop=stop))
                 yield backwards(run) if index % 2 else run
 
