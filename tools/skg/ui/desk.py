@@ -21,6 +21,7 @@ from skg.job.wanted import Partial
 from skg.messages.finding import Finding
 from skg.messages.render import speech
 from skg.pipeline.pairing import named
+from skg.pipeline.placing import told_as_drawn
 from skg.pipeline.steps import (
     CutDrawing,
     DrawnJob,
@@ -220,7 +221,7 @@ class Desk:
         with _noted(errors):
             refuse_lost(self._job, self._drawn)
         job, placement, nesting = self._job, Placement(), self._drawn.nesting
-        with _noted(errors):
+        with _noted(errors), told_as_drawn(Placement(), self._drawn.name):
             placement, nesting = self._drawn.placement(job), self._drawn.placed(job)
         if nesting is self._drawn.nesting:
             # (what cannot be placed is shown as it is drawn)
