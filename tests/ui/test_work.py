@@ -362,6 +362,32 @@ def test_save(saving: tuple[Page, Json, int], tmp_path: Path) -> None:
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted([*names, "plate.dxf"])
 
 
+def test_a_punch_and_its_die(serve: Callable[[Path], Server], tmp_path: Path) -> None:
+    """A clearance: a run has both, each with files of its own, which are saved together, or none where one is there."""
+    page = Page(serve(plate(tmp_path)))
+    state = page.state()
+    state |= page.put(state, machine={"offset": 0.1}, default={"clearance": 0.02, "clearance_on": "die"})
+    number, run = page.cut(state["rev"])
+    result = run["result"]
+    assert (result["tape_name"], result["mate"]["tape_name"]) == ("plate-punch.nodrift.3b", "plate-die.nodrift.3b")
+    codes = [line["code"] for line in result["lines"]]
+    assert codes.index("pair-punch") < codes.index("pair-die")
+    (tmp_path / "plate-die.nodrift.3b").write_text("mine")
+    body = {"run": number, "what": ["tape", "job", "holes"], "overwrite": False}
+    assert page.call("POST", "/api/save", body).json["exists"] == ["plate-die.nodrift.3b"]
+    assert not (tmp_path / "plate-punch.nodrift.3b").exists()
+    names = page.done("POST", "/api/save", body | {"overwrite": True})["written"]
+    assert len(names) == 5 and names[-2:] == ["plate-punch.nodrift.3b", "plate-die.nodrift.3b"]
+    skg("cut", tmp_path / "plate.job.toml", "-o", tmp_path / "own.nodrift.3b")
+    for member in ("punch", "die"):
+        tape = (tmp_path / f"plate-{member}.nodrift.3b").read_bytes()
+        assert tape == (tmp_path / f"own-{member}.nodrift.3b").read_bytes()
+        assert page.get(f"/api/run/{number}/tape?member={member}").body == tape
+    short = body | {"overwrite": True, "what": ["tape"], "short": True}
+    assert page.done("POST", "/api/save", short | {"name": "TOOL"})["written"] == ["TOOL-P.3b", "TOOL-D.3b"]
+    assert page.call("POST", "/api/save", short | {"name": "TOOLTOOL"}).status == 400
+
+
 def test_save_asks(saving: tuple[Page, Json, int], tmp_path: Path) -> None:
     """Nothing is written over what is there unless it is said, and then all of it takes the old one's place."""
     page, _, number = saving
