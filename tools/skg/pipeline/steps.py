@@ -25,7 +25,7 @@ from skg.geometry.placement import Placement
 from skg.geometry.plane import XY, shifted
 from skg.job.job import Chosen, Job
 from skg.job.matching import Known, Matches
-from skg.job.placing import Copies
+from skg.job.placing import Copies, Place
 from skg.job.read_options import Wishes
 from skg.job.values import LEAST_FIT
 from skg.job.wanted import Partial, Wanted
@@ -77,10 +77,14 @@ class DrawnJob:
 
     def placement(self, job: Job) -> Placement:
         """Where the drawing lies on the machine; a `UserError` where that is too far away."""
-        return placing.placement_of(job.place, self._cut(job), self.matches.shift)
+        # (most drawings lie where they are drawn, and nobody waits to hear which contours these are)
+        cut = [] if job.place == Place() else self._cut(job)
+        return placing.placement_of(job.place, cut, self.matches.shift)
 
     def pattern(self, job: Job) -> Pattern | None:
         """The copies of it on the machine, None: it is alone; a `UserError` where they are too far away."""
+        if job.copies.count == 1:
+            return None
         return placing.pattern_of(self.copies(job), self.placement(job), self._cut(job))
 
     def copies(self, job: Job) -> Copies:

@@ -545,6 +545,8 @@ def _ordered(routes: list[PlannedContour]) -> list[PlannedContour]:
 def _as_wanted(routes: list[PlannedContour], wanted: Sequence[Wanted]) -> list[PlannedContour]:
     """Put the routes that have a wanted order to their places; the others keep theirs among themselves."""
     placed = {route.number: order for route in routes if (order := wanted[route.number].order) is not None}
+    if not placed:
+        return routes
     free = iter([route for route in routes if route.number not in placed])
     ranked = sorted((route for route in routes if route.number in placed), key=lambda route: placed[route.number])
     merged: list[PlannedContour] = []

@@ -37,6 +37,7 @@ class Wall(NamedTuple):
 def thin_walls(routes: Sequence[PlannedContour]) -> list[Wall]:
     """The walls that are thinner than what the cuts on their sides take, the thinnest first."""
     closed = [route for route in routes if route.contour.is_closed and 0 < abs(route.passes[-1]) <= _WIRE]
+    closed.sort(key=lambda route: route.number)
     if len(closed) < 2:
         return []
     kerfs = np.array([2 * abs(route.passes[-1]) for route in closed])
@@ -63,12 +64,29 @@ def thin_walls(routes: Sequence[PlannedContour]) -> list[Wall]:
     return sorted(walls, key=lambda wall: wall.thick)
 
 
-def findings(routes: Sequence[PlannedContour]) -> Iterator[Finding]:
-    """Report the walls that are thinner than what the cuts beside them take."""
-    walls = thin_walls(routes)
+class Walls:
+    """The thin walls of contours that are planned again and again: they are the same while nothing but start holes,
+    entries and the order of cutting is another."""
+
+    def __init__(self) -> None:
+        self._known: tuple[list[tuple[int, float]], list[Wall]] = [], []
+
+    def of(self, routes: Sequence[PlannedContour]) -> list[Wall]:
+        """The walls; their contours are those that were planned first."""
+        key = sorted((route.number, route.passes[-1]) for route in routes)
+        if key != self._known[0]:
+            self._known = key, thin_walls(routes)
+        return self._known[1]
+
+
+def findings(routes: Sequence[PlannedContour], known: Walls | None = None) -> Iterator[Finding]:
+    """Report the walls that are thinner than what the cuts beside them take; `known`: from plans before."""
+    walls = (known or Walls()).of(routes)
+    turns = {route.number: route.turn for route in routes} if walls else {}
     for wall in walls[:_PLACES]:
-        turns = {"turn": wall.first.turn, "other": wall.second.turn, "wide": wall.thick, "kerf": wall.kerfs}
-        yield Finding("thin-wall", contour=wall.first.number, place=wall.place, **turns)
+        both = {"turn": turns[wall.first.number], "other": turns[wall.second.number]}
+        about = {"wide": wall.thick, "kerf": wall.kerfs, "place": wall.place}
+        yield Finding("thin-wall", contour=wall.first.number, **both, **about)
     if (more := len(walls) - _PLACES) > 0:
         yield Finding("more-thin-walls", count=more)
 

@@ -173,6 +173,7 @@ class Plans:
     def __init__(self) -> None:
         self._known: dict[int, tuple[PlannedContour | None, Wanted, dict | None, str]] = {}
         self._told: list[str] = []
+        self._walls = walls.Walls()
 
     def written(
         self,
@@ -199,7 +200,7 @@ class Plans:
                 line(as_drawn(entry, placement))
                 for entry in (
                     *findings((route.turn, route.remarks.around) for route in routes),
-                    *walls.findings(routes),
+                    *walls.findings(routes, self._walls),
                 )
             ],
             "error": told(errors[0]) if errors else None,
