@@ -105,6 +105,28 @@ def test_corners_are_made_and_strays_are_left(tmp_path: Path) -> None:
     assert len(again.contours) == 1 and again.contours[0].is_closed
 
 
+def test_overlapping_lines_beyond_a_corner(tmp_path: Path) -> None:
+    """They are one by themselves; what of them lies behind the corner is offered to be cut off, and is then."""
+    page = ezdxf.new()
+    page.units = units.MM
+    for (x, y), (u, v) in (
+        ((60, 0), (60, 40)), ((60, 40), (0, 40)), ((0, 40), (0, 0)), ((0, 0), (40, 0)), ((30, 0), (63, 0)),
+    ):  # fmt: skip
+        page.modelspace().add_line((x, y), (u, v))
+    path = tmp_path / "part.dxf"
+    page.saveas(path)
+    data = path.read_bytes()
+    offered = open_drawing(job(open="cut"), data).reading.report.repairs
+    (corner,) = [repair for repair in offered if repair.kind == "corner"]
+    assert corner.size == pytest.approx(3) and not [repair for repair in offered if repair.kind == "bridge"]
+    asked = job(corners=(corner.asked,))
+    drawn = open_drawing(asked, data)
+    (contour,) = drawn.contours
+    assert contour.is_closed and len(contour.edges) == 4
+    codes = [finding.code for finding in cut_drawing(asked, drawn).findings]
+    assert "lines-twice" in codes and "corner-made" in codes
+
+
 def test_a_repair_that_is_not_named_is_refused(tmp_path: Path) -> None:
     """The check sees that a corner is not as it is drawn."""
     data = crossed(tmp_path)
