@@ -13,7 +13,8 @@ define HELP
   make emu        the emulator and its library for the tools
   make format     Python, C and TypeScript as the formatters write them; make lint checks that, and their warnings
   make docs       tables, sessions and pictures of the pages, written anew
-  make bench      cycles of the floats, a block, FIT, LOAD, a step, and the emulator's speed: one table, exit 1 where a limit is passed
+  make bench      cycles of the floats, a block, FIT, LOAD, a step, the emulator's speed, seconds of skg cut: one table, exit 1 where a limit is
+                  passed; make bench-peer: beside viaConstructor, which it installs in build/peer
   make fuzz       half an hour of random typing at the ROM (BYTES=200000000)
   make simh       the core's test programs and the examples in SIMH's Altair
   make rs274      LinuxCNC's interpreter for the tests of milling tapes, out of Debian's packages
@@ -135,6 +136,14 @@ bench: venv emu bench-emu
 	@PYTHONPATH=tests $(PY) tests/bench.py
 	@$(MAKE) -s bench-pico
 
+# The same with the peer's ratio: viaConstructor, in an environment of its own, and nowhere else.
+bench-peer: build/peer/.stamp
+	@$(MAKE) -s bench
+build/peer/.stamp:
+	$(PYTHON) -m venv --clear build/peer
+	build/peer/bin/python -m pip install -q --disable-pip-version-check viaconstructor==0.7.0
+	touch $@
+
 # What is exact of it, without the benches of the host: a limit that is passed fails.
 bench-exact: venv emu
 	@PYTHONPATH=tests $(PY) tests/bench.py --exact
@@ -153,4 +162,4 @@ build/board/bin/python:
 clean:
 	rm -rf build
 
-.PHONY: all help rom-age venv run test test-all test-codes t format lint docs bench bench-exact bench-rom board clean
+.PHONY: all help rom-age venv run test test-all test-codes t format lint docs bench bench-peer bench-exact bench-rom board clean

@@ -1,7 +1,7 @@
 """All that has a limit, as one table behind the benches' own: `make bench`, with exit 1 where a limit is passed.
 
-Cycles of the 8080 are exact, and so are the host's instructions where valgrind counts them. Seconds are in none of it:
-what they are depends on what else the host does.
+Cycles of the 8080 are exact, and so are the host's instructions where valgrind counts them. Seconds of `skg cut` are
+the processor's and have no limit; but it takes no longer than viaConstructor, where `make bench-peer` has that.
 
     PYTHONPATH=tests python tests/bench.py [--exact]
 
@@ -31,10 +31,10 @@ TIMES_FEWER, PLAIN_FOR_PEER = 6.5, 79.4 / 100.7
 SHORT, LONG = 10_000_000, 30_000_000
 
 
-def benches() -> list[Measured]:
-    """The rows of the floats, the ROM and the drive, behind their own tables."""
+def benches(*names: str) -> list[Measured]:
+    """The rows of some folders' benches, behind their own tables."""
     rows: list[Measured] = []
-    for name in ("floats", "rom", "drive"):
+    for name in names:
         print(f"tests/{name}/bench.py\n")
         rows += _main_of(TESTS / name / "bench.py")()
         print()
@@ -81,9 +81,9 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--exact", action="store_true", help="cycles of the 8080 alone")
     options = parser.parse_args()
-    rows = benches()
+    rows = benches("floats", "rom", "drive")
     if not options.exact:
-        rows += emulator()
+        rows += [*emulator(), *benches("tools")]
     return judge(rows)
 
 

@@ -21,7 +21,7 @@ class Measured:
         return self.limit is None or (self.value >= self.limit if self.at_least else self.value <= self.limit)
 
     def __str__(self) -> str:
-        digits = 0 if self.value >= 100 else 1
+        digits = 0 if self.value >= 100 else 1 if self.value >= 10 else 2
         bound = "" if self.limit is None else f"{'>=' if self.at_least else '<='} {self.limit:,g}"
         return f"{self.what:46} {self.value:12,.{digits}f}   {bound:>11}{'' if self.is_kept else '   PASSED'}"
 

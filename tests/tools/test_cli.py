@@ -126,11 +126,13 @@ def test_cut_starts_without_the_reference() -> None:
 
 
 def test_a_plain_dxf_drawing_needs_no_other_reader() -> None:
-    """One of lines, arcs and polylines is read without ezdxf, and without what reads SVG: 75 ms."""
+    """One of lines, arcs, ellipses and polylines is read without ezdxf, and without what reads SVG: 75 ms."""
     text = (
         "import sys; from skg.reading.read import read; "
-        "data = '0 SECTION 2 ENTITIES 0 CIRCLE 8 0 10 0 20 0 40 9 0 ENDSEC 0 EOF '.replace(' ', chr(10)).encode(); "
-        "assert read(data, 'a.dxf').contours; "
+        "ellipse = '0 ELLIPSE 8 0 10 40 20 0 11 9 21 0 40 0.5 41 0 42 6.283185307179586'; "
+        "text = f'0 SECTION 2 ENTITIES 0 CIRCLE 8 0 10 0 20 0 40 9 {ellipse} 0 ENDSEC 0 EOF '; "
+        "data = text.replace(' ', chr(10)).encode(); "
+        "assert len(read(data, 'a.dxf').contours) == 2; "
         "print([name for name in ('ezdxf', 'svgelements', 'tinycss2', 'cssselect2') if name in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)

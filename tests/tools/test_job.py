@@ -286,7 +286,7 @@ def test_every_example_as_a_job(run: Run, tmp_path: Path, words: list[str]) -> N
 
 
 def test_examples_are_there() -> None:
-    assert len(EXAMPLES) >= 7
+    assert len(EXAMPLES) >= 6
 
 
 def test_settings_of_contours(run: Run, tmp_path: Path) -> None:
