@@ -103,6 +103,10 @@ def test_corners_are_made_and_strays_are_left(tmp_path: Path) -> None:
     # saved anew, elsewhere: all are found again
     again = open_drawing(asked, crossed(tmp_path, 25))
     assert len(again.contours) == 1 and again.contours[0].is_closed
+    # in a country's coordinates: moved to where a tape has room, and so is what the report says of it
+    far = cut_drawing(asked, open_drawing(asked, crossed(tmp_path, 437_000)))
+    places = [finding.place for finding in far.findings if finding.code == "corner-made"]
+    assert sorted(map(tuple, places)) == [pytest.approx(place, abs=1e-3) for place in ((0, 0), (10, 40), (60, 0))]
 
 
 def test_overlapping_lines_beyond_a_corner(tmp_path: Path) -> None:

@@ -40,7 +40,7 @@ _READ: dict[str, values.Check] = {
     "layers": values.names,
     "bridges": values.pairs,
     "corners": values.pairs,
-    "strays": values.places,
+    "strays": values.places_in_file,
 }
 _MACHINE: dict[str, values.Check] = {
     "wire": values.number(0.0, 2 * values.MOST_OFFSET, is_open=True),

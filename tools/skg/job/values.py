@@ -29,6 +29,8 @@ RAM = 2, 56
 FARTHEST = 100_000.0
 #: No price is higher, no rate faster.
 MOST_MONEY = 99_999_999.0
+#: No place in a file is farther from its origin, mm: maps are drawn in a country's coordinates.
+_IN_FILE = 1e9
 #: No text is longer.
 _LONGEST = 200
 
@@ -174,9 +176,17 @@ def pairs(value: object) -> tuple[tuple[float, float, float, float], ...]:
         raise Wrong(Phrase("value-pairs"))
     lines: dict[tuple[float, float, float, float], None] = {}
     for line in value:
-        x, y, u, v = _numbers(line, 4, number(), "value-pairs")
+        x, y, u, v = _numbers(line, 4, number(-_IN_FILE, _IN_FILE), "value-pairs")
         lines[x, y, u, v] = None
     return tuple(lines)
+
+
+def places_in_file(value: object) -> tuple[tuple[float, float], ...]:
+    """Check a list of places in a drawing's file."""
+    if not isinstance(value, list | tuple):
+        raise Wrong(Phrase("value-places"))
+    pairs_of = (_numbers(each, 2, number(-_IN_FILE, _IN_FILE), "value-place") for each in value)
+    return tuple((x, y) for x, y in pairs_of)
 
 
 def passes(value: object, least: int = 1) -> tuple[float, ...]:
