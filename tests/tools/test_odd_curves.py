@@ -9,10 +9,12 @@ from pathlib import Path
 import pytest
 from cuthelp import LIMIT, apart, drawing, saved, stretches
 from ezdxf.layouts import Modelspace
+from facthelp import says
 from shapely.geometry import LinearRing, LineString
 from toolhelp import Run
 
 from skg.geometry import fitting
+from skg.messages.finding import Phrase
 from skg.ref import fit
 
 
@@ -60,7 +62,7 @@ def test_curve(run: Run, tmp_path: Path, shape: Callable[[Modelspace], LinearRin
     wanted = shape(page.modelspace())
     tape, program = tmp_path / "part.3b", tmp_path / "part.skg"
     result = run("cut", saved(page, tmp_path), "-o", tape, "--program", program)
-    assert "1 closed" in result.stderr
+    assert says(result.stderr, Phrase("contours-read"), Phrase("count-closed", count=1))
     start = program.read_text().split("FROM (")[1].split(")")[0].split(",")
     (places,) = stretches(tape.read_bytes(), (float(start[0]), float(start[1])))
     assert apart(LineString(places[1:-1]), wanted) < LIMIT + 0.004 * (shape is bent)

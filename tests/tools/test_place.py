@@ -13,6 +13,7 @@ from cuthelp import drawing, polygon, saved, stretches
 from ezdxf import transform
 from ezdxf.document import Drawing
 from ezdxf.math import Matrix44
+from facthelp import says
 from toolhelp import Run
 
 from skg.errors import UserError
@@ -20,6 +21,7 @@ from skg.geometry.placement import Placement
 from skg.job.file import decoded, encoded
 from skg.job.job import Job, MachineSetup
 from skg.job.placing import Place
+from skg.messages.finding import Phrase
 from skg.pipeline.steps import choose, cut_drawing, open_drawing, plan_drawing, written
 
 
@@ -177,4 +179,4 @@ def test_what_is_refused(run: Run, tmp_path: Path) -> None:
         assert failed.value.finding.code == "placed-too-far"
     assert not (tmp_path / "a.3b").exists()
     quiet = run("cut", path, "-o", tmp_path / "b.3b", "--scale", "1.5", "--side", "on", "--quiet").stderr
-    assert "1.5" in quiet and "60 x 37.6299 mm" in quiet
+    assert says(quiet, Phrase("scaled", scale=1.5, width=60, height=37.6299))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 from pathlib import Path
 
 import pytest
@@ -58,7 +57,7 @@ def test_what_is_taken_is_said(run: Run, belts: tuple[Path, Path], command: str,
     for path in belts:
         result = run(command, path, *output)
         assert result.exit_code == 0
-        assert re.fullmatch(rf"skg: {path}: .*\(programmed\).*--positions machine.*\n", result.stderr)
+        assert each_says(result.stderr, (f"skg: {path}: ", Phrase("taken-with-drift", ending=".nodrift.3b")))
         for positions in ("programmed", "machine"):
             assert run(command, path, *output, "--positions", positions).stderr == ""
 
@@ -70,7 +69,7 @@ def test_check_goes_by_it(run: Run) -> None:
             result = run("check", "-", "--positions", positions, stdin=f"{tape}\r\nDD\r\n")
             assert (result.exit_code == 0) == (positions in ("auto", right)), result.stdout
             if result.exit_code:
-                assert says(result.stdout, f"J = {expected}", "circle")
+                assert says(result.stdout, Phrase("arc-j-other-count", j=expected))
 
 
 def test_name_says_it(run: Run, tmp_path: Path) -> None:
@@ -78,7 +77,7 @@ def test_name_says_it(run: Run, tmp_path: Path) -> None:
     path.write_bytes((ROOT / "examples" / "ratchet.3b").read_bytes())
     result = run("sim", "--json", path)
     assert json.loads(result.stdout)[0]["positions"] == "machine"
-    assert each_says(result.stderr, (f"skg: {path}: ", "(machine)", "name"))
+    assert each_says(result.stderr, (f"skg: {path}: ", Phrase("without-drift", by=Phrase("its-name"))))
 
 
 def test_program_needs_no_word(run: Run) -> None:

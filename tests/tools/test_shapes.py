@@ -8,7 +8,7 @@ from math import acos, atan2, cos, degrees, hypot, pi, radians, sin, sqrt, tan
 from pathlib import Path
 
 import pytest
-from facthelp import says
+from facthelp import pattern, says
 from oneblock import run_block
 from toolhelp import Run
 
@@ -129,7 +129,8 @@ def test_gear_with_a_keyway(run: Run, tmp_path: Path) -> None:
     """The bore and its keyway are cut first, inside by R; the outline outside."""
     words = ["--module", 2, "--teeth", 20, "--bore", 12, "--keyway", 4, 13.8, "--offset", 0.1]
     result = run("gear", *words, "--tape", tmp_path / "gear.3b", "-o", tmp_path / "gear.skg")
-    assert "1 opening, 1 outline" in result.stderr
+    kinds = (Phrase("count-opening", count=1), Phrase("count-outline", count=1))
+    assert says(result.stderr, Phrase("order-of-cutting", kinds=kinds))
     bore, outline = result_places(tmp_path)
     assert max(y for _, y in bore) == pytest.approx(13.8 - 6 - 0.1, abs=LIMIT)
     assert max(x for x, _ in bore) == pytest.approx(5.9, abs=LIMIT)
@@ -179,17 +180,20 @@ def test_cam(run: Run, tmp_path: Path, law: str, roller: float) -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "message"),
+    ("words", "fact"),
     [
-        (["gear", "--module", 2, "--teeth", 8, "--shift", 1], "come to a point"),
-        (["gear", "--module", 1000, "--teeth", 1000], "the tip circle has a radius of 501 m, a tape ends at 100 m"),
-        (["gear", "--module", 2, "--teeth", 20, "--bore", 40], "the bore reaches 20 mm"),
-        (["gear", "--module", 2, "--teeth", 20, "--fillet", 1], "does not fit"),
-        (["gear", "--module", 1, "--teeth", 20, "--offset", 1.2], "offset"),
-        (["cam", "--base", 4, "--lift", 12, "--rise", 40, "--roller", 20, "--law", "harmonic"], "more tightly"),
-        (["cam", "--base", 5, "--lift", 2, "--rise", 300, "--dwell", 10, "--fall", 60], "370 degrees, more"),
+        (["gear", "--module", 2, "--teeth", 8, "--shift", 1], Phrase("gear-pointed")),
+        (["gear", "--module", 1000, "--teeth", 1000], Phrase("gear-too-large", radius=501)),
+        (["gear", "--module", 2, "--teeth", 20, "--bore", 40], Phrase("gear-bore", reach=20)),
+        (["gear", "--module", 2, "--teeth", 20, "--fillet", 1], Phrase("gear-fillet")),
+        (["gear", "--module", 1, "--teeth", 20, "--offset", 1.2], Phrase("shape-too-narrow", offset=1.2)),
+        (["cam", "--base", 4, "--lift", 12, "--rise", 40, "--roller", 20, "--law", "harmonic"], Phrase("cam-undercut")),
+        (
+            ["cam", "--base", 5, "--lift", 2, "--rise", 300, "--dwell", 10, "--fall", 60],
+            Phrase("cam-over-a-turn", degrees=370),
+        ),
     ],
 )
-def test_what_cannot_be_cut(run: Run, words: list[object], message: str) -> None:
-    with pytest.raises(UserError, match=message):
+def test_what_cannot_be_cut(run: Run, words: list[object], fact: Phrase) -> None:
+    with pytest.raises(UserError, match=pattern(fact)):
         run(*words)

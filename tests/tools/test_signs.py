@@ -9,11 +9,12 @@ import unicodedata
 from pathlib import Path
 
 import pytest
+from facthelp import pattern
 
 from skg.errors import UserError
 from skg.files import board_text
 from skg.machine.board import Board
-from skg.messages.finding import Finding
+from skg.messages.finding import Finding, Phrase
 from skg.signs import Keys, with_signs
 
 SKG80 = Path(__file__).parents[2] / "build" / "skg80"
@@ -57,7 +58,7 @@ def test_a_lost_minus(tmp_path: Path) -> None:
     )
     board = Board()
     assert board.type("PRINT 5−3") == ["2"]
-    with pytest.raises(UserError, match="column 8: 'é'"):
+    with pytest.raises(UserError, match=pattern(Phrase("not-ascii-typed", column=8, character="'é'"))):
         board.type("PRINT 5é3")
 
 
@@ -73,8 +74,13 @@ def test_a_lost_minus(tmp_path: Path) -> None:
 )
 def test_what_has_no_sign_is_refused_with_its_place(line: bytes, place: str, tmp_path: Path) -> None:
     text = b"\xef\xbb\xbf5 REM\r\n" + line + b"\n"
-    with pytest.raises(UserError, match=re.escape(place)):
+    where, _, sign = place.partition(": ")
+    line_, column = map(int, re.findall(r"\d+", where))
+    with pytest.raises(UserError) as refused:
         board_text(text, "part.skg")
+    finding = refused.value.finding
+    assert (finding.code, finding["line"], finding["column"]) == ("not-ascii", line_, column)
+    assert str(finding["character"]) == sign
     part = tmp_path / "part.skg"
     part.write_bytes(text)
     asks = tmp_path / "asks.skg"

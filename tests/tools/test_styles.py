@@ -233,7 +233,12 @@ def test_every_tool_reads_it_and_says_so(run: Run, tmp_path: Path, words: list[s
     other.write_text(SAME["published"][0])
     ones, others = (run(words[0], path, *words[1:]) for path in (own, other))
     assert others.exit_code == 0
-    assert says(others.stderr, f"skg: {other}: ", "style", "blank", "block", "line", "DD")
+    assert says(
+        others.stderr,
+        f"skg: {other}: ",
+        Phrase("other-style"),
+        *map(Phrase, ("style-blanks", "style-several", "style-no-end")),
+    )
     texts = [result.stdout.replace(str(other), str(own)) for result in (ones, others)]
     if words == ["dxf"]:
         texts = [text.rpartition("\nENTITIES\n")[2].partition("\nOBJECTS\n")[0] for text in texts]
@@ -253,7 +258,7 @@ def test_check_says_what_is_different(run: Run, tmp_path: Path) -> None:
     path.write_text("  0\nSECTION\n  2\nENTITIES\n" * 1000)
     result = run("check", path)
     assert (result.exit_code, len(result.stdout.splitlines())) == (1, 1)
-    assert says(result.stdout.splitlines()[-1], ": ", "DXF drawing", "3B")
+    assert says(result.stdout, f"{path}: ", Phrase("other-kind", kind=Phrase("file-dxf"), expected=Phrase("file-tape")))
 
 
 def test_written_in_a_style(run: Run, tmp_path: Path) -> None:

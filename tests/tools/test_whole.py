@@ -9,7 +9,7 @@ from random import Random
 import pytest
 from drawings import ALL, bracket, die_plate, gear_wheel, mirrored_blocks
 from ezdxf.document import Drawing
-from facthelp import says
+from facthelp import CARE, pattern, says
 from test_reading import checked, dxf_bytes, line, polygon, raw, square
 
 from skg.errors import UserError
@@ -54,7 +54,7 @@ def test_each_value_that_is_needed(kind: str, is_odd: bool) -> None:
         rest = [word for pair in pairs if pair[0] != str(code) for word in pair]
         reading = checked(with_block(*square(0, 0, 9), " ".join([kind, *rest])))
         assert refused(reading) == [kind] and len(reading.contours) == 1 and not reading.starts, code
-        assert says("\n".join(reading.report.lines()), "not cut", kind)
+        assert says("\n".join(reading.report.lines()), Phrase("entity-not-cut", kind=kind))
     assert NEEDED[kind]
 
 
@@ -135,9 +135,9 @@ def test_a_file_that_ends_behind_a_section() -> None:
     end = data.rindex(b"ENDSEC") + 6
     for behind in (b"", b"\n", b"\r\n"):
         reading = checked(data[:end] + behind)
-        assert len(reading.contours) == 1 and says("\n".join(reading.report.notes), Phrase("no-eof"))
+        assert len(reading.contours) == 1 and says("\n".join(reading.report.notes), CARE, Phrase("no-eof"))
     for wrong in (data[: end - 1], data[:end] + b"\n0\n", data[:end] + b"\n0\nSECTION\n2\nOBJECTS\n0\nDICTIONARY\n"):
-        with pytest.raises(UserError, match="cut off"):
+        with pytest.raises(UserError, match=pattern(Phrase("cut-off"))):
             checked(wrong)
 
 

@@ -84,7 +84,7 @@ def test_a_cutter(run: Run, tmp_path: Path) -> None:
     code, told = checked(run, tmp_path, f"Z -2,5\nF 300,60\n{part}END\n")
     assert code == 1 and says(told, Phrase("path-cuts-in", depth=1), Phrase("tool-cutter"))
     code, told = checked(run, tmp_path, f"Z -2,5\nF 300,60\n{mouth(5.0, 2.0)}")
-    assert code == 0 and "1 contour" in told
+    assert code == 0 and says(told, Phrase("path-beside", count=1))
 
 
 def test_nothing_is_said_of_a_wire_on_its_contour(run: Run, tmp_path: Path) -> None:
@@ -125,7 +125,7 @@ def test_walls_that_are_no_neighbours(run: Run, tmp_path: Path, shape: str, widt
     code, told = checked(run, tmp_path, program)
     assert code == (not fits)
     if not fits:
-        assert says(told, f"{2 * 0.1 - width:.4g} mm")
+        assert says(told, Phrase("path-cuts-in", depth=round(2 * 0.1 - width, 4)))
 
 
 def test_what_the_check_says_shapely_says(run: Run, tmp_path: Path) -> None:
@@ -178,7 +178,7 @@ def test_programs_of_skg_cut(run: Run, tmp_path: Path, words: list[object]) -> N
     program = tmp_path / "part.skg"
     run("cut", saved(page, tmp_path), "-o", tmp_path / "a.3b", "--offset", 0.1, *words, "--program", program)
     done = run("check", program)
-    assert done.exit_code == 0 and "contour" in done.stdout, done.stdout
+    assert done.exit_code == 0 and says(done.stdout, Phrase("path-beside")), done.stdout
 
 
 def test_examples(run: Run) -> None:
@@ -190,7 +190,7 @@ def test_examples(run: Run) -> None:
     for path in paths:
         done = run("check", path)
         assert (done.exit_code == 1) == (path.name in TOLD), (path, done.stdout)
-        beside += "beside" in done.stdout
+        beside += says(done.stdout, Phrase("path-beside"))
     assert beside > len(paths) / 2
 
 
@@ -221,5 +221,5 @@ def test_a_wire_that_goes_through_a_wall(run: Run, tmp_path: Path, monkeypatch: 
     image[symbols((ROOT / "roms/skg.sym").read_text())["WRAP"]] = 0xC9
     monkeypatch.setattr(load, "feed", lambda text, rom: feed(text, bytes(image)))
     code, told = checked(run, tmp_path, numbered(NOSES[name]))
-    assert code == 1 and says(told, Phrase("reference-refuses", number=6)), told
-    assert says(told, "1.9995 mm" if name == "corner" else "0.0991 mm", "contour")
+    assert code == 1 and says(told, Phrase("reference-refuses", number=6), Phrase("of-line")), told
+    assert says(told, Phrase("path-cuts-in", depth=1.9995 if name == "corner" else 0.0991))
