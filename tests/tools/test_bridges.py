@@ -99,7 +99,7 @@ def test_corners_are_made_and_strays_are_left(tmp_path: Path) -> None:
     assert (sizes[60, 0]["longer"], sizes[60, 0]["shorter"]) == pytest.approx((0.8, 0))
     (left,) = [finding for finding in cut.findings if finding.code == "stray-left"]
     assert left["length"] == pytest.approx(15.44, abs=0.01)
-    assert sum(layer.left for layer in cut.account.layers) == 2
+    assert sum(layer.skipped for layer in cut.account.layers) == 2
     # saved anew, elsewhere: all are found again
     again = open_drawing(asked, crossed(tmp_path, 25))
     assert len(again.contours) == 1 and again.contours[0].is_closed

@@ -190,6 +190,6 @@ def test_numbers_that_are_too_large() -> None:
     odd = ["ARC 8 0 10 5 20 5 40 3 50 0 51 1e300", "ELLIPSE 8 0 10 5 20 5 11 1 21 1 40 .5 41 0 42 1e400",
            "LWPOLYLINE 8 0 90 2 70 1e400 10 0 20 0 10 9 20 0", "LINE 8 0 62 1e400 10 0 20 0 11 9 21 1"]  # fmt: skip
     reading = checked(raw(*square(0, 0, 9), *odd))
-    reasons = [entity.left for entity in reading.report.not_understood]
+    reasons = [entity.reason for entity in reading.report.not_understood]
     assert len(reasons) == len(odd)
     assert all(why.code == "reason-too-large" or "too large" in why["detail"] for why in reasons)

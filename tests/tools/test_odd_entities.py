@@ -94,7 +94,7 @@ def types(*entities: str) -> bytes:
 def test_solids_are_named() -> None:
     """Solids are listed with advice to the user, a region with the advice to explode it."""
     solids = [f"{kind} 8 0 100 AcDbModelerGeometry 70 1" for kind in ("3DSOLID", "EXTRUDEDSURFACE", "REGION")]
-    reasons = [(one.kind, one.left.code) for one in checked(raw(*square(0, 0, 9), *solids)).report.not_understood]
+    reasons = [(one.kind, one.reason.code) for one in checked(raw(*square(0, 0, 9), *solids)).report.not_understood]
     assert reasons == [("3DSOLID", "reason-solid"), ("EXTRUDEDSURFACE", "reason-solid"), ("REGION", "reason-acis")]
 
 
@@ -103,7 +103,7 @@ def test_a_polyline_that_is_not_read_is_placed_at_its_first_corner() -> None:
     corners = "".join(f"\n0\nVERTEX\n8\n0\n10\n{x}\n20\n7\n30\n{z}\n70\n32" for x, z in ((40, 0), (60, 5), (60, 9)))
     tilted = "POLYLINE 8 0 66 1 70 9 10 0 20 0" + corners + "\n0\nSEQEND"
     (left,) = checked(raw(*square(0, 0, 9), tilted)).report.not_understood
-    assert left.place == (40, 7) and left.left.code == "reason-leaves-plane"
+    assert left.place == (40, 7) and left.reason.code == "reason-leaves-plane"
 
 
 @pytest.mark.parametrize(("plane", "upwards"), [("xz", "y"), ("yz", "x")])
@@ -137,7 +137,7 @@ def test_a_drawing_that_stands_upright(plane: str, upwards: str) -> None:
             assert max(distance(edge.at(t), same.at(t)) for t in (0, 0.3, 1)) < 1e-6
     both = drawn(turned=True)
     both.modelspace().add_lwpolyline([(0, 0), (60, 0), (60, 40), (0, 30)], close=True)
-    assert {one.left for one in checked(dxf_bytes(both)).report.not_understood} == {LEAVES}
+    assert {one.reason for one in checked(dxf_bytes(both)).report.not_understood} == {LEAVES}
 
 
 def test_axes_within_an_outline_are_left() -> None:
@@ -339,4 +339,4 @@ def test_half_a_place(half: str) -> None:
         raw(line(0, 0, 9, 0), half).replace(b"0\nSECTION\n2\nENT", CORNER.encode() + b"0\nSECTION\n2\nENT")
     )
     assert [entity.kind for entity in reading.report.not_understood] == [half.split()[0]]
-    assert "missing" in text(reading.report.not_understood[0].left)
+    assert "missing" in text(reading.report.not_understood[0].reason)

@@ -93,8 +93,9 @@ def checked(data: bytes, **wishes: object) -> Reading:
         assert (edges[-1].end == edges[0].start) == contour.is_closed
     report = reading.report
     assert report.layers
-    assert all(layer.read == layer.cut + layer.part + layer.left for layer in report.layers)
-    assert all(sum(kinds.total() for kinds in layer.why.values()) == layer.part + layer.left for layer in report.layers)
+    assert all(layer.read == layer.cut + layer.part + layer.skipped for layer in report.layers)
+    for layer in report.layers:
+        assert sum(kinds.total() for kinds in layer.why.values()) == layer.part + layer.skipped
     return reading
 
 
@@ -535,7 +536,7 @@ def test_outlines_of_one_layer() -> None:
     corner = [line(1, 0, 0, 0, "REF"), line(0, 0, 0, 1, "REF"), line(9, 9, 4, 4, "BEND")]
     reading = checked(raw(*corner, *rounded))
     assert length(reading.contours) == pytest.approx(4 * 9 - 2 + pi / 2)
-    assert {layer.layer: (layer.cut, layer.left) for layer in reading.report.layers} == {
+    assert {layer.layer: (layer.cut, layer.skipped) for layer in reading.report.layers} == {
         "0": (5, 0), "REF": (0, 2), "BEND": (0, 1)
     }  # fmt: skip
     # Two rings of two layers that share a corner or two, and what makes a ring of both.

@@ -153,7 +153,7 @@ def test_blocks_too_deep_are_not_parts_of_themselves() -> None:
         text = "0\nSECTION\n2\nBLOCKS\n" + "".join(blocks) + "0\nENDSEC\n"
         reading = checked(with_block("INSERT 8 0 2 D0 10 0 20 0", block=text))
         (odd,) = reading.report.not_understood
-        return len(reading.contours), odd.left
+        return len(reading.contours), odd.reason
 
     count, why = lines(*(block(number, number + 1) for number in range(40)))
     assert count == 33 and says(why, Phrase("reason-block-deep", name="D33", most=32)) and not says(why, "itself")

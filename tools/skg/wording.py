@@ -34,8 +34,3 @@ def short(value: float) -> str:
 def shown(place: tuple[float, float]) -> str:
     """A place as a person writes it."""
     return f"({short(place[0])}, {short(place[1])})"
-
-
-def counted(count: int, noun: str, nouns: str = "") -> str:
-    """A number with its noun."""
-    return f"{count} {noun if count == 1 else nouns or noun + 's'}"

@@ -33,7 +33,7 @@ _WILD = 1000.0
 
 
 @dataclass(frozen=True)
-class Left:
+class Skipped:
     """A contour that is not cut, since the wire has no room: its number among those planned, what it is, and why.
 
     `is_within`: it lies in an opening that is not cut.
@@ -47,7 +47,8 @@ class Left:
 
 @dataclass(frozen=True)
 class CutResult:
-    """A tape that was checked, the program that made it, how it went into the board; `left`: what it does not cut."""
+    """A tape that was checked, the program that made it, how it went into the board; `skipped`: contours that it does
+    not cut."""
 
     routes: list[PlannedContour]
     program: str
@@ -56,7 +57,7 @@ class CutResult:
     tape: Tape
     checked: Checked
     machine: MachineSetup
-    left: tuple[Left, ...] = ()
+    skipped: tuple[Skipped, ...] = ()
 
     @property
     def cut_length(self) -> float:
@@ -91,7 +92,7 @@ def make(
         return first
     # (what is wrong with the part is told of once)
     result = _made(_Ladder(pattern.all_of(first.routes), title, machine, progress, pattern))
-    return replace(result, left=first.left + result.left)
+    return replace(result, skipped=first.skipped + result.skipped)
 
 
 def _made(ladder: _Ladder) -> CutResult:
@@ -100,7 +101,7 @@ def _made(ladder: _Ladder) -> CutResult:
     ladder.tame()
     result = ladder.around_tips(ladder.through())
     refusal.refuse(result.checked, result.routes, ladder.machine)
-    return replace(result, left=tuple(ladder.left))
+    return replace(result, skipped=tuple(ladder.skipped))
 
 
 def run(program: Program, machine: MachineSetup) -> CutResult:
@@ -146,8 +147,8 @@ _RUNGS = (_arcs_for_fillets, _straight_lead, _own_way, _in_chords)
 
 
 class _Ladder:
-    """The contours, each on a rung of its own. `routes`: by their numbers in the order of cutting; `left`: those that
-    are not cut; `pattern`: the copies that they are."""
+    """The contours, each on a rung of its own. `routes`: by their numbers in the order of cutting; `skipped`: those
+    that are not cut; `pattern`: the copies that they are."""
 
     def __init__(
         self,
@@ -158,7 +159,7 @@ class _Ladder:
         pattern: Pattern | None = None,
     ) -> None:
         self.routes = dict(enumerate(routes))
-        self.left: list[Left] = []
+        self.skipped: list[Skipped] = []
         self.title = title
         self.machine = machine
         self.progress = progress
@@ -283,13 +284,13 @@ class _Ladder:
         names = {number: self.routes[number].name for number in reasons}
         within = islands(self.routes, reasons)
         for number, reason in reasons.items():
-            self.left.append(Left(self.routes.pop(number).number, names[number], reason))
+            self.skipped.append(Skipped(self.routes.pop(number).number, names[number], reason))
         for number, opening in within.items():
             route = self.routes.pop(number)
             reason = Phrase("lies-in-not-cut", name=names[opening])
-            self.left.append(Left(route.number, route.name, reason, is_within=True))
+            self.skipped.append(Skipped(route.number, route.name, reason, is_within=True))
         if not self.routes:
-            raise UserError(Finding("nothing-left", name=self.left[0].name, why=self.left[0].why))
+            raise UserError(Finding("nothing-left", name=self.skipped[0].name, why=self.skipped[0].why))
 
 
 def _may_be_traced(route: PlannedContour) -> bool:

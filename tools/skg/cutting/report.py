@@ -37,9 +37,9 @@ def findings(result: CutResult, offset: float = 0.0) -> list[Finding]:
         *_facts(result, offset),
         *(
             Finding("contour-not-cut", name=skipped.name, why=skipped.why, contour=skipped.number)
-            for skipped in result.left[:_PLACES]
+            for skipped in result.skipped[:_PLACES]
         ),
-        *_more(result.left, "more-not-cut"),
+        *_more(result.skipped, "more-not-cut"),
         *nesting.findings((route.turn, route.remarks.around) for route in routes),
         *_corners(routes),
         *_crossings(result),

@@ -16,7 +16,7 @@ from hashlib import sha256
 from skg.checking.as_drawn import as_drawn
 from skg.checking.check_drawn import NEAR, Named, off_drawn
 from skg.cutting.cost import Cost
-from skg.cutting.ladder import CutResult, Left, make
+from skg.cutting.ladder import CutResult, Skipped, make
 from skg.cutting.progress import Progress, in_silence
 from skg.cutting.report import findings
 from skg.errors import UserError
@@ -237,7 +237,7 @@ def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> C
     if drawn.member:
         others = enumerate(wanted_of(job, replace(drawn, member="")))
         left |= {number: pairing.OTHER for number, want in others if want.cut and number in left}
-    left |= {contour.number: _reason(contour) for contour in result.left}
+    left |= {contour.number: _reason(contour) for contour in result.skipped}
     account = drawn.reading.account(left) if left else drawn.reading.report
     result = _beside_file(result, job, drawn, account, placement)
     cost = Cost.of(result, job.price)
@@ -245,7 +245,7 @@ def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> C
     return CutDrawing(result, account, cost, report, placement, drawn.member)
 
 
-def _reason(contour: Left) -> Phrase:
+def _reason(contour: Skipped) -> Phrase:
     """The reason why a contour is not cut, in the account of the drawing."""
     if contour.is_within:
         return WITHIN

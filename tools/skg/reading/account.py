@@ -33,14 +33,14 @@ class Entity:
     """One entity of a file (those of a block as often as the block is inserted).
 
     `kind`: its name in the file, such as LWPOLYLINE or path; `place`: a place on it, mm.
-    `left`: why it is not cut, or not all of it; None while it is. `is_odd`: it is left because it was not understood,
+    `reason`: why it is not cut, or not all of it; None while it is. `is_odd`: it is left because it was not understood,
     not because it is nothing to cut. `dashes`: the name of its line type where that is not drawn through.
     """
 
     kind: str
     layer: str
     place: XY
-    left: Phrase | None = None
+    reason: Phrase | None = None
     is_odd: bool = False
     dashes: str = ""
 
@@ -92,7 +92,7 @@ class LayerSum:
     read: int = 0
     cut: int = 0
     part: int = 0
-    left: int = 0
+    skipped: int = 0
     why: dict[Phrase, Counter[str]] = field(default_factory=lambda: defaultdict(Counter))
 
 
@@ -222,7 +222,7 @@ class Account:
                 report.append(Finding("open-end", place=end.place, **about))
         report += _more(self.open_ends, "more-open-ends")
         for entity in self.not_understood[:_PLACES]:
-            about = {"kind": entity.kind, "layer": entity.layer, "why": entity.left}
+            about = {"kind": entity.kind, "layer": entity.layer, "why": entity.reason}
             report.append(Finding("entity-not-cut", place=entity.place, **about))
         report += _more(self.not_understood, "more-not-understood")
         report += _of_no_outline(self.rest)
@@ -281,7 +281,7 @@ def _size(account: Account) -> Finding:
 
 
 def _of_layer(layer: LayerSum) -> Finding:
-    counts = (("layer-cut", layer.cut), ("layer-part", layer.part), ("layer-left", layer.left))
+    counts = (("layer-cut", layer.cut), ("layer-part", layer.part), ("layer-left", layer.skipped))
     parts = tuple(Phrase(code, count=count) for code, count in counts if count)
     reasons = tuple(Phrase("kinds-for-reason", kinds=listed(kinds), reason=why) for why, kinds in layer.why.items())
     return Finding(

@@ -100,7 +100,7 @@ class _Collector:
 
     def leaves(self) -> bool:
         """Tell whether an entity leaves the drawing's plane."""
-        return any(entity.left == LEAVES for entity in self.content.entities)
+        return any(entity.reason == LEAVES for entity in self.content.entities)
 
     def place(self, record: Record) -> XY:
         """A place on a record's entity, mm."""
@@ -133,31 +133,31 @@ class _Collector:
         """Add what is no block reference."""
         account = self.account(record, layer)
         is_start = self.wishes.is_start(layer)
-        account.left = hidden or self.unwanted(layer) or (Phrase("reason-invisible") if record.whole(60) else None)
-        if not account.left and _is_note(record.kind, is_start):
-            account.left = NOTE
+        account.reason = hidden or self.unwanted(layer) or (Phrase("reason-invisible") if record.whole(60) else None)
+        if not account.reason and _is_note(record.kind, is_start):
+            account.reason = NOTE
             self.note(record)
-        if self.wishes.is_by_layer(account.left) and not is_start and not _is_note(record.kind, is_start):
+        if self.wishes.is_by_layer(account.reason) and not is_start and not _is_note(record.kind, is_start):
             self.see(record, account)
-        if account.left:
+        if account.reason:
             return
         known = len(self.content.edges)
         try:
             if is_start:
                 self.content.starts.append(self.start(record))
-                account.left = Phrase("reason-start-hole")
+                account.reason = Phrase("reason-start-hole")
                 return
             for edge in self.edges_of(record):
                 self.add(edge)
             if len(self.content.edges) > known:
                 self.describe(record, account, self.content.edges[known].start)
             else:
-                account.left = Phrase("reason-no-length")
+                account.reason = Phrase("reason-no-length")
             return
         except NotFlat as error:
-            account.left = error.reason
+            account.reason = error.reason
         except UNREADABLE as error:
-            account.left = _unread(error)
+            account.reason = _unread(error)
         account.is_odd = True
         del self.content.edges[known:]
 
@@ -255,8 +255,8 @@ class _Collector:
             reason = _unread(error)
         if reason or block is None:
             account = self.account(record, layer)
-            account.left = hidden or self.unwanted(layer) or reason
-            account.is_odd = account.left == reason
+            account.reason = hidden or self.unwanted(layer) or reason
+            account.is_odd = account.reason == reason
             return
         self.dashes_around = self.dashes(record, layer)
         for matrix in matrices:
@@ -381,7 +381,7 @@ def _circles(content: Content, whole: list[int], tolerance: float) -> list[int]:
     near = tree.query(starts, predicate="dwithin", distance=tolerance)[0]
     gone = set(arcs[np.bincount(near, minlength=len(arcs)) >= 2].tolist())
     for number in gone:
-        content.entities[number].left = Phrase("reason-between-lines")
+        content.entities[number].reason = Phrase("reason-between-lines")
     content.edges = [edge for edge in content.edges if edge.entity not in gone]
     return [number for number in whole if number not in gone]
 
@@ -425,7 +425,7 @@ def collect(file: DxfFile, wishes: Wishes, factor: float) -> Content:
             file.notes.append(Finding("paper-space"))
     else:
         for record in file.paper:
-            collector.account(record, record.layer).left = Phrase("reason-paper-space")
+            collector.account(record, record.layer).reason = Phrase("reason-paper-space")
     file.notes += by_layer("seen-with-width", collector.wide)
     whole = [
         collector.content.entities[number] for number in _circles(collector.content, collector.whole, wishes.tolerance)

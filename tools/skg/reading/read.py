@@ -244,13 +244,13 @@ def _svg_content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Accou
 
 def _nothing(content: Content, wishes: Wishes) -> Finding:
     """Explain why there is nothing to cut."""
-    reasons = Counter((entity.kind, entity.left) for entity in content.entities)
+    reasons = Counter((entity.kind, entity.reason) for entity in content.entities)
     summary = tuple(
         Phrase("kind-and-reason", count=count, kind=kind, reason=reason)
         for (kind, reason), count in reasons.most_common(5)
     )
     advice = None
-    unseen = sorted({entity.layer for entity in content.entities if wishes.is_hidden(entity.left)})
+    unseen = sorted({entity.layer for entity in content.entities if wishes.is_hidden(entity.reason)})
     if unseen and not wishes.layers:
         advice = Phrase("take-that-layer", layer=unseen[0])
     elif any(entity.kind in AREAS for entity in content.entities):

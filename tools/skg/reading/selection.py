@@ -269,22 +269,22 @@ class Fates:
             layer = sums.setdefault(entity.layer, LayerSum(entity.layer))
             layer.read += 1
             gone = self.gone.get(number) or Counter()
-            if cut[number] + gone.total() != self.parts[number] or not (self.parts[number] or entity.left):
+            if cut[number] + gone.total() != self.parts[number] or not (self.parts[number] or entity.reason):
                 about: dict[str, Any] = {"kind": entity.kind, "layer": entity.layer, "place": entity.place}
                 known: dict[str, Any] = {"parts": self.parts[number], "counted": cut[number] + gone.total()}
                 raise UserError(Finding("miscounted", **about, **known))
-            if not entity.left and all(why in _WITH_OTHERS for why in gone):
+            if not entity.reason and all(why in _WITH_OTHERS for why in gone):
                 report.whole[number] = DOUBLE in gone
             lost = [why for why in gone if not cut[number] or why not in _WITH_OTHERS]
-            if not lost and not entity.left:
+            if not lost and not entity.reason:
                 layer.cut += 1
                 continue
-            reason = entity.left or _all_of(lost)
-            left = replace(entity, left=reason)
+            reason = entity.reason or _all_of(lost)
+            left = replace(entity, reason=reason)
             if cut[number]:
                 layer.part += 1
             else:
-                layer.left += 1
+                layer.skipped += 1
             layer.why[reason][left.kind] += 1
             if JUNCTION in gone:
                 rest.append(left)

@@ -115,7 +115,7 @@ class Drawn:
 
     element: ElementTree.Element
     view: View
-    left: Phrase | None = None
+    reason: Phrase | None = None
 
 
 class SvgFile:

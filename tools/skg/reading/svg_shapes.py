@@ -180,12 +180,12 @@ class _SvgCollector:
     def take(self, item: Drawn) -> None:
         """Account for one element that is drawn."""
         kind, layer = tag_of(item.element), item.view.layer
-        account = Entity(kind, layer, (0.0, 0.0), self.wishes.unwanted(layer) or item.left)
+        account = Entity(kind, layer, (0.0, 0.0), self.wishes.unwanted(layer) or item.reason)
         self.result.entities.append(account)
         if kind == "text" and not (item.view.hidden or self.wishes.unwanted(layer)):
             with suppress(*UNREADABLE):
                 self._write(item)
-        if kind not in SHAPES or item.left and item.left.code == "reason-unread":
+        if kind not in SHAPES or item.reason and item.reason.code == "reason-unread":
             account.is_odd = not item.view.hidden and kind not in NOTES
             return
         try:
@@ -194,26 +194,26 @@ class _SvgCollector:
             check_vertices(len(outline), kind)
             edges = list(self.shapes.edges(outline))
         except UNREADABLE as error:
-            account.left = account.left or Phrase("reason-unread", detail=str(error) or type(error).__name__)
+            account.reason = account.reason or Phrase("reason-unread", detail=str(error) or type(error).__name__)
             account.is_odd = not item.view.hidden
             return
         if edges:
             account.place = edges[0].start
-        is_seen = not item.left and item.view.style.is_painted and not item.view.style.is_hidden
-        if self.wishes.is_by_layer(account.left) and is_seen and not self.wishes.is_start(layer):
+        is_seen = not item.reason and item.view.style.is_painted and not item.view.style.is_hidden
+        if self.wishes.is_by_layer(account.reason) and is_seen and not self.wishes.is_start(layer):
             self.result.others += edges
             account.dashes = "stroke-dasharray" if item.view.style.is_dashed else ""
-        account.left = account.left or (Phrase("reason-invisible") if item.view.style.is_hidden else None)
-        if account.left:
+        account.reason = account.reason or (Phrase("reason-invisible") if item.view.style.is_hidden else None)
+        if account.reason:
             return
         if self.wishes.is_start(layer):
             self._start(account, outline if edges else [])
         elif not item.view.matrix.determinant:
-            account.left = Phrase("reason-no-area")
+            account.reason = Phrase("reason-no-area")
         elif not edges:
-            account.left = Phrase("reason-no-length")
+            account.reason = Phrase("reason-no-length")
         elif not item.view.style.is_painted:
-            account.left = _UNPAINTED
+            account.reason = _UNPAINTED
             self.unpainted.append((account, edges))
         else:
             self._cut(account, item.view, edges)
@@ -238,7 +238,7 @@ class _SvgCollector:
 
     def _start(self, account: Entity, outline: Sequence[svgelements.PathSegment]) -> None:
         """A shape on the layer of start holes: a circle is one, about its middle."""
-        account.left = Phrase("reason-start-hole") if account.kind == "circle" else NOTE
+        account.reason = Phrase("reason-start-hole") if account.kind == "circle" else NOTE
         if account.kind == "circle" and outline:
             self.result.starts.append(self.shapes.point(outline[0].center))
 
@@ -263,7 +263,7 @@ class _SvgCollector:
         result.notes += self._of_page()
         if not result.edges:
             for account, edges in self.unpainted:
-                account.left = None
+                account.reason = None
                 result.edges += edges
             result.notes += by_layer("seen-unpainted", (account for account, _ in self.unpainted))
         result.notes += by_layer("seen-clipped", self.clipped)
