@@ -97,7 +97,7 @@ def drawing(drawn: DrawnJob) -> dict[str, Any]:
         {
             "name": layer.layer,
             "contours": on[layer.layer],
-            "left": layer.left,
+            "left": layer.skipped,
             "why": said(Phrase("list", items=tuple(layer.why))),
         }
         for layer in report.layers
