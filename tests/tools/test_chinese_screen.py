@@ -15,6 +15,8 @@ import pytest
 
 from skg.cli import COMMANDS, cli
 
+pytestmark = pytest.mark.wording
+
 ROOT = Path(__file__).parents[2]
 SKG = Path(sys.executable).with_name("skg")
 MESSAGES = ROOT / "tools" / "skg" / "messages"

@@ -8,6 +8,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from facthelp import says
+
+from skg.messages.finding import Finding, Phrase
 
 ROOT = Path(__file__).parents[2]
 SKG = Path(sys.executable).with_name("skg")
@@ -42,12 +45,16 @@ def test_every_command_is_tried() -> None:
 
 
 @pytest.mark.parametrize(
-    ("word", "answer"), [("tekthran", "did you mean tekhtran?"), ("qqq", "'qqq' (see skg --help)")]
+    ("word", "answer"),
+    [
+        ("tekthran", Phrase("no-command-near", name="tekthran", near="tekhtran")),
+        ("qqq", Phrase("wrong-usage", what=Phrase("no-command", name="qqq"), command="skg")),
+    ],
 )
-def test_mistyped_command(word: str, answer: str) -> None:
+def test_mistyped_command(word: str, answer: Phrase) -> None:
     done = subprocess.run([SKG, word, "part.dxf"], capture_output=True, text=True)
     assert (done.returncode, done.stdout, done.stderr.count("\n")) == (2, "", 1)
-    assert answer in done.stderr
+    assert says(done.stderr, answer)
 
 
 def test_as_a_module() -> None:
@@ -98,7 +105,7 @@ def test_closed_output(words: list[str]) -> None:
 def test_full_disk(words: list[str]) -> None:
     done = subprocess.run(["bash", "-c", '"$@" >/dev/full', "bash", SKG, *words], cwd=ROOT, capture_output=True)
     assert done.returncode == 2
-    assert done.stderr.endswith(b"skg: standard output: No space left on device\n")
+    assert done.stderr.decode().endswith(f"skg: {Finding('system-full').within(Phrase('stdout'))}\n")
 
 
 def test_help_loads_no_command() -> None:
@@ -149,6 +156,7 @@ def test_small_commands_start_fast() -> None:
     assert done.stdout == "[]\n"
 
 
+@pytest.mark.wording
 @pytest.mark.parametrize(
     ("words", "encodings"),
     [

@@ -57,6 +57,7 @@ def needed(command: str) -> str | None:
     return next((one["command"] for one in examples() if read & set(WRITTEN.findall(one["command"]))), None)
 
 
+@pytest.mark.wording
 @pytest.mark.parametrize("example", examples(), ids=lambda match: match["command"])
 def test_example(example: re.Match[str], tmp_path: Path) -> None:
     """In a folder of its own, so that examples run in any order, and beside each other."""

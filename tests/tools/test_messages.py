@@ -22,6 +22,8 @@ from skg.messages.render import Medium, Speech, _Wording, advice, line, text
 from skg.messages.settings import KEYS, SETTINGS
 from skg.messages.severity import _CARE, _GUESS, _LOST, Severity, severity_of
 
+pytestmark = pytest.mark.wording
+
 SKG = Path(__file__).parents[2] / "tools" / "skg"
 CATALOGUES = {
     language: {entry.msgid: entry for entry in polib.pofile(str(SKG / "messages" / f"{language}.po"))}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+import pytest
 from test_docs import EXAMPLE, ROOT, indented, printed
 
 PAGE = ROOT / "docs" / "shop.md"
@@ -12,6 +13,7 @@ PAGE = ROOT / "docs" / "shop.md"
 _PICTURE = re.compile(r"(-o|--sheet) docs/pictures/\S+")
 
 
+@pytest.mark.wording
 def test_page(tmp_path: Path) -> None:
     """All commands in their order, in one folder: later ones read what earlier ones wrote."""
     for name in ("docs", "examples"):
@@ -23,6 +25,7 @@ def test_page(tmp_path: Path) -> None:
         assert indented(printed(command, tmp_path)) == example["output"], command
 
 
+@pytest.mark.wording
 def test_report_is_explained() -> None:
     """The report's lines in the page's table are in the report."""
     text = PAGE.read_text()
