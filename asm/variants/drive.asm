@@ -1,7 +1,7 @@
 ; drive.asm - the board follows the blocks itself, and steps two motors (drive.md)
 ; Offers: PUNOFF BDPUN SDRIV DNEW BDOFF BDREST
 ; Uses:   [ports] [post] [punch] [start] decimal ends io monitor program run start value
-; Room:   685 bytes
+; Room:   696 bytes
 ;
 ; Text is the one way in: DRIVE gives each character of the reader to DPUSH, RUN each one that it punches. DPUSH
 ; goes on in the middle of DLINE, which knows what may come, and has left its place in DPARS.  So a line is
@@ -516,12 +516,18 @@ DENDS:  CALL    DFIN
 ; (fall into BDOFF)
 
 ; BDOFF - after an error and at a program tape's end: no more lines from the reader; the machine is off
-; Out: A = 0   Clobbers nothing else
+; Out: A = 0   Clobbers HL
 BDOFF:  LDA     NXTP+1
         ORA     A
         JZ      BDOFF1
-        XRA     A               ; a program's tape is broken off: what runs next begins with cutting
-        STA     DSTATE
+        LXI     H,DSTATE        ; a program's tape is broken off: what runs next begins with cutting,
+        MVI     M,0
+        DCX     H
+        DCX     H               ; -> DPARS
+        MOV     A,M
+        CPI     DSYN8&255
+        JNZ     BDOFF1
+        MVI     M,0             ; and of a D that waited for the rest of a block nothing is left
 BDOFF1: XRA     A
         STA     LOADF
         OUT     DRIVE
