@@ -9,12 +9,25 @@ from __future__ import annotations
 import re
 from random import Random
 
+from curves import behind_a_corner, curve_part
 from parts import decimal, point, session, signed, somewhere
 
 
 def feed(rng: Random) -> str:
     """F, at times without a second feed, by a sum, or wrong."""
-    one = rng.choice(["200", "60", decimal(rng, 0.5, 3000), "100/3", "0.1+0.2", "0.3", "1E3", "12345.678901", ".001"])
+    one = rng.choice(
+        [
+            "200",
+            "60",
+            decimal(rng, 0.5, 3000),
+            "100/3",
+            "0.1+0.2",
+            "0.3",
+            "1E3",
+            "12345.678901",
+            ".001",
+        ]
+    )
     two = rng.choice(["", "", f",{decimal(rng, 5, 300)}", ",200", ",60"])
     if rng.random() < 0.03:
         one = rng.choice(["0", "-5", "1E8", "99999999", "99999999.7", ".0009999", "P1", "1/0"])
@@ -34,7 +47,20 @@ def word(rng: Random) -> str:
     """M or G."""
     if rng.random() < 0.06:
         return rng.choice(
-            ["M 2", "M 30", "M 3,0", "M 3,-1", "M 100", "M 3.5", "G 1", "G 17", "G 4,0", "G 90", "M P", "M 6,1.2"]
+            [
+                "M 2",
+                "M 30",
+                "M 3,0",
+                "M 3,-1",
+                "M 100",
+                "M 3.5",
+                "G 1",
+                "G 17",
+                "G 4,0",
+                "G 90",
+                "M P",
+                "M 6,1.2",
+            ]
         )
     return rng.choice([
         f"M 3,{decimal(rng, 1, 24000)}", "M 3,1200", "M 4,.5", "M 5", "M 7", "M 8", "M 9", "M 0", "M 6,2",
@@ -53,7 +79,7 @@ BETWEEN = re.compile(r"\d+ (BACK|RECUT|FROM\b|SCALE\b|[A-Z]\d*=|REM)")
 
 def mill_session(rng: Random) -> tuple[str, tuple[str, ...]]:
     """A program for the mill, and the operator's answers to its INPUTs."""
-    program, answers = session(rng)
+    program, answers = (curve_part(rng, [behind_a_corner]), ()) if rng.random() < 0.1 else session(rng)
     lines = []
     if rng.random() < 0.97:
         lines.append(f"1 {feed(rng)}")

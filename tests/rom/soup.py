@@ -318,6 +318,22 @@ class _Cook:
             nodes.append(nodes[0])
         return [f"FIT {node}" + (f",{rng.choice(ANGLES)}" if rng.random() < 0.25 else "") for node in nodes]
 
+    def behind(self) -> list[str]:
+        """Nodes close together behind a sharp corner, nearer to it than the wire is thick."""
+        rng = self.rng
+        side = rng.choice([1, -1])
+        away = 90 * side
+        nodes = [
+            f"(10,0),{away - rng.choice([0, 2, 10])}",
+            f"(10,{side * rng.choice([1, 2])}),{away + rng.choice([2, 0, 10])}",
+        ]
+        nodes += [rng.choice([f"(9,{10 * side})", f"(10,{10 * side})", f"(5,{5 * side})"])] * (rng.random() < 0.8)
+        return [
+            f"R={rng.choice(['2', '-2', '1', '-1', '0.5', '-0.5', '5'])}",
+            rng.choice(["CUT (0,0)", "CUT (0,0),(10,0)", "CUT (20,0)", f"CUT (0,{5 * side})"]),
+            *(f"FIT {node}" for node in nodes),
+        ]
+
     def rep(self) -> str:
         rng = self.rng
         count = rng.choice(["2", "2", "3", "4", "4", "5", "6", "8", "1", "0", "-1", "2.5", "I", "D/2"])
@@ -384,7 +400,7 @@ class _Cook:
         if rng.random() < 0.14:
             if rng.random() < 0.3:
                 lines.append(f"TOL {rng.choice(['0.01', '0.1', '1', '0', '0.5', '-1'])}")
-            lines += self.fit()
+            lines += self.behind() if rng.random() < 0.3 else self.fit()
             if rng.random() < 0.4:
                 lines.append(self.cut())
         else:
