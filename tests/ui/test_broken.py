@@ -19,6 +19,7 @@ import pytest
 from facthelp import says
 from uihelp import Json, Page, circles, english, plate, until
 
+from skg.messages.finding import Phrase
 from skg.ui import worker
 from skg.ui.server import Server
 from skg.ui.session import CutRun
@@ -75,7 +76,7 @@ def test_killed_in_the_first_reading(server: Server, tmp_path: Path) -> None:
     reading.join()
     assert answers[0]["job"] is None
     answer = page.get("/api/job")
-    assert answer.status == 400 and says(answer.message, "not been read")
+    assert answer.status == 400 and says(answer.message, Phrase("no-job-yet"))
 
 
 def test_killed_in_a_cut(server: Server, tmp_path: Path) -> None:
@@ -305,7 +306,7 @@ def test_time_is_limited(server: Server, tmp_path: Path, monkeypatch: pytest.Mon
     page.open(plate(tmp_path))
     monkeypatch.setattr(worker, "SECONDS", 0.05)
     state = page.open(circles(tmp_path, 3000))
-    assert says(english(state["error"]), "given up")
+    assert state["error"]["code"] == "page-too-long"
     monkeypatch.undo()
     assert len(page.open(plate(tmp_path))["contours"]) == 3
 
@@ -319,7 +320,7 @@ def test_memory_is_limited(server: Server, tmp_path: Path) -> None:
     used = int(Path(f"/proc/{process_of(server)}/statm").read_text().split()[0]) * resource.getpagesize()
     resource.prlimit(process_of(server), resource.RLIMIT_AS, (used + (8 << 20), worker.MEMORY))
     state = page.open(circles(tmp_path, 8000))
-    assert "memory" in english(state["error"]) or "has ended" in english(state["error"])
+    assert state["error"]["code"] in ("no-memory", "process-ended")
     assert len(page.open(plate(tmp_path))["contours"]) == 3
 
 
