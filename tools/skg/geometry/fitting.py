@@ -66,7 +66,7 @@ def _off(
 ) -> tuple[float, float]:
     """Distance of the curve from the biarc between two parameters, and from what FIT cuts of it; infinity without a
     good one. It is tried at eleven places, and at three between two breaks. `one`: the node at `low`."""
-    other = CurveNode(*places_at([high]), heading(high))
+    other = CurveNode(places_at([high])[0], heading(high))
     if distance(one.point, other.point) < 1e-6:
         # A stretch without any length is one place; else the curve comes back to where it was.
         between = places_at([low + k / 8 * (high - low) for k in range(1, 8)])
@@ -151,7 +151,7 @@ def _stations(places_at: At, heading: Heading, breaks: Sequence[float], toleranc
     tolerance *= _SPARE
     yield now
     while now < end:
-        node = CurveNode(*places_at([now]), heading(now))
+        node = CurveNode(places_at([now])[0], heading(now))
         # The longest good step, how far FIT's cut is off there; the shortest bad one.
         good, off_cut, bad = 0.0, inf, inf
         for _ in range(16):

@@ -147,6 +147,7 @@ def wire_way(contour: Contour, r: float) -> tuple[Edge, ...]:
     edges = _lines_and_arcs(contour)
     if len(edges) == 1:
         (edge,) = edges
+        assert edge.centre is not None, "a closed contour of one edge is a circle"
         radius = edge.radius + (r if edge.sweep > 0 else -r)
         if radius < _LEAST:
             raise NoRoom(edge.centre, _NONE)
@@ -322,7 +323,7 @@ def _corner(one: _Beside, other: _Beside, near: XY, r: float) -> XY:
         place = near
     for _ in range(30):
         (off, square), (too, athwart) = one.off(place, r), other.off(place, r)
-        step = tuple((off * p + too * q) / 2 for p, q in zip(square, athwart, strict=True))
+        step = (off * square[0] + too * athwart[0]) / 2, (off * square[1] + too * athwart[1]) / 2
         place = minus(place, step)
         if hypot(*step) < 1e-11:
             break
@@ -411,7 +412,7 @@ def _walls(edges: Sequence[Edge]) -> Iterator[list[Edge]]:
 def roomy_place(way: tuple[Edge, ...], place: XY) -> XY:
     """A place that a closed way goes around: the given one, else the one that is farthest from the way; in a circle
     beside that, since from a centre the ROM goes to the +X side (language.md, section 4.2)."""
-    if way[0].is_circle:
+    if way[0].is_circle and way[0].centre is not None:
         (x, y), radius = way[0].centre, way[0].radius
         far = distance((x, y), place)
         return place if far < radius else (x + (place[0] - x) * radius / far / 2, y + (place[1] - y) * radius / far / 2)

@@ -37,11 +37,13 @@ class Piece:
     @property
     def radius(self) -> float:
         """Radius of an arc, as its start has it."""
+        assert self.centre is not None, "a line has no radius"
         return distance(self.start, self.centre)
 
     @property
     def angles(self) -> tuple[float, float]:
         """Start and end angle of an arc, radians; the end is the start plus the sweep."""
+        assert self.centre is not None, "a line has no angles"
         x, y = minus(self.start, self.centre)
         first = atan2(y, x)
         return first, first + self.sweep

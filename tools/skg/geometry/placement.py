@@ -31,8 +31,8 @@ class Placement:
         angle = radians(turn % 360.0)
         c, s = _QUARTERS[int(quarters) % 4] if not rest else (cos(angle), sin(angle))
         x, y = -1.0 if mirror == "x" else 1.0, -1.0 if mirror == "y" else 1.0
-        matrix = (scale * c * x, -scale * s * y, scale * s * x, scale * c * y)
-        return cls(tuple(value + 0.0 for value in matrix))
+        # (+ 0.0: no zero with a sign)
+        return cls((scale * c * x + 0.0, -scale * s * y + 0.0, scale * s * x + 0.0, scale * c * y + 0.0))
 
     @cached_property
     def _determinant(self) -> float:
@@ -63,9 +63,8 @@ class Placement:
             # (a turn's inverse is its transpose, to the last bit)
             return Placement((a, c, b, d), self.at, self.origin)
         size = self._determinant
-        return Placement(
-            tuple(value + 0.0 for value in (d / size, -b / size, -c / size, a / size)), self.at, self.origin
-        )
+        inverse = (d / size + 0.0, -b / size + 0.0, -c / size + 0.0, a / size + 0.0)
+        return Placement(inverse, self.at, self.origin)
 
     def place(self, place: XY) -> XY:
         """A place."""

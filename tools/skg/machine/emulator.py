@@ -19,7 +19,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from skg.errors import UserError, of_system
 from skg.messages.finding import Finding
@@ -94,7 +94,7 @@ def read_rom(path: str) -> tuple[bytes, list[int]]:
     rom, given = (ctypes.create_string_buffer(ROM_SIZE) for _ in range(2))
     text, line = ctypes.create_string_buffer(data), ctypes.c_int()
     if fault := _library().image_rom_of(os.fsencode(path), text, len(data), rom, given, ROM_SIZE, line):
-        values = {"length": len(data), "expected": ROM_SIZE} if fault == 1 else {}
+        values: dict[str, Any] = {"length": len(data), "expected": ROM_SIZE} if fault == 1 else {}
         place = f"{path}:{line.value}" if line.value else path
         raise UserError(Finding(_IMAGE_FAULTS[fault - 1], **values).within(place))
     return rom.raw, [address for address, is_given in enumerate(given.raw) if not is_given]
@@ -314,7 +314,8 @@ class Machine:
     def _output(self, punch: bool, first: int = 0) -> bytes:
         start = ctypes.c_void_p()
         length = self._lib.machine_output(self._machine, punch, ctypes.byref(start))
-        return ctypes.string_at(start.value + first, length - first) if length > first else b""
+        # (a pointer to nothing has no value, and then there is no length)
+        return ctypes.string_at((start.value or 0) + first, length - first) if length > first else b""
 
     @property
     def printed(self) -> int:

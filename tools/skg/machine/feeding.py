@@ -148,7 +148,7 @@ def feed_routes(
         # (the first boards run while the rest of the program is still being written)
         parts, written = tee(parts)
         shares, done = [], 0
-        for taken, *fed in boards.map(lambda share: (len(share), *_feed_share(share, rom, ram_kib)), _shares(parts)):
+        for taken, fed in boards.map(lambda share: (len(share), _feed_share(share, rom, ram_kib)), _shares(parts)):
             shares.append(fed)
             done += taken - 1
             on_done(done)

@@ -7,9 +7,23 @@ import os
 import signal
 import sys
 from collections.abc import Callable, Iterator
+from importlib import import_module
+from typing import Protocol, cast
+
+
+class Console(Protocol):
+    """The keyboard of Windows, as its module `msvcrt` has it."""
+
+    def kbhit(self) -> bool:
+        """Tell whether a key waits."""
+
+    def getwch(self) -> str:
+        """The next key."""
+
 
 try:
-    import msvcrt
+    # (by its name: on other systems a type checker knows the module as empty)
+    msvcrt: Console | None = cast(Console, import_module("msvcrt"))
 
     #: Exceptions of a terminal beside OSError.
     TERMINAL_TROUBLE: tuple[type[Exception], ...] = ()
@@ -41,16 +55,17 @@ def raw_keyboard() -> Iterator[Callable[[], bytes]]:
 @contextlib.contextmanager
 def _console() -> Iterator[Callable[[], bytes]]:
     """The console of Windows, its characters in UTF-8; keys without one, as the arrows, are nothing."""
-    interrupts = bytearray()
+    interrupts, console = bytearray(), msvcrt
+    assert console is not None, "a console of Windows"
 
     def typed() -> bytes:
         keys = bytes(interrupts)
         interrupts.clear()
-        while msvcrt.kbhit():
-            key = msvcrt.getwch()
+        while console.kbhit():
+            key = console.getwch()
             if key in "\0\xe0":
                 # (the second half of a key without a character)
-                msvcrt.getwch()
+                console.getwch()
             else:
                 keys += key.encode("utf-8", "surrogatepass")
         return keys

@@ -11,6 +11,7 @@ import re
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import NamedTuple
 
 from tqdm import tqdm
@@ -142,10 +143,14 @@ class Typist:
         for first in range(0, len(data), step):
             expected = bytes(teletype.line) + data[first : first + step]
             self._put(data[first : first + step])
-            teletype.wait(lambda wanted=expected: bytes(teletype.line) == wanted or teletype.losses > losses, _ECHO)
+            teletype.wait(partial(self._has_line, expected, losses), _ECHO)
             if bytes(teletype.line) != expected:
                 return False
         return True
+
+    def _has_line(self, expected: bytes, losses: int) -> bool:
+        """Tell whether the paper has a line, or the port was lost since."""
+        return bytes(self.teletype.line) == expected or self.teletype.losses > losses
 
     def _slow_down(self) -> None:
         """A board that cannot take a line at once is given it character by character."""

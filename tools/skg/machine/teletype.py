@@ -33,7 +33,7 @@ LF, PROMPT = 0x0A, 0x3E
 #: Seconds between two tries to open a port that went away.
 _RETRY = 0.5
 #: Exceptions of pyserial if a port cannot be opened, or is closed or gone in the middle of a call.
-_TROUBLE = (OSError, ValueError, TypeError, AttributeError, *TERMINAL_TROUBLE)
+_TROUBLE: tuple[type[Exception], ...] = (OSError, ValueError, TypeError, AttributeError, *TERMINAL_TROUBLE)
 
 
 class Splitter:
