@@ -165,7 +165,7 @@ def test_sends_and_records(machine: Machine, tmp_path: Path) -> None:
     assert tape.read_bytes() == CAD_TAPE
     assert b"B9900B0B9900GXL3" in result.stdout, "what is punched is on the paper too"
     assert result.stdout.count(b">") == 5
-    assert says(result.stderr.decode().splitlines()[-1], f"{len(CAD_TAPE)} bytes", tape)
+    assert says(result.stderr.decode().splitlines()[-1], Phrase("bytes-punched", number=len(CAD_TAPE)), tape)
 
 
 def test_keyboard_from_a_pipe(machine: Machine) -> None:
@@ -231,10 +231,10 @@ def test_an_error_ends_what_is_sent(machine: Machine, pace: str, tmp_path: Path)
     machine.refuses = "20 CUT P1,P2"
     result = term(machine.link, "--send", part, "--batch", "--pace", pace, "--quiet", "0.5")
     assert result.returncode == 1
-    assert b": ERR 06, geometry impossible" in result.stderr
+    assert says(result.stderr.decode(), "ERR 06", Phrase("meaning-6"))
     if pace == "prompt":
         assert machine.lines == ["10 REM A PART", "20 CUT P1,P2"]
-        assert b"part.skg: line 2: ERR 06" in result.stderr
+        assert says(result.stderr.decode(), "part.skg: ", Phrase("line-number", line=2), "ERR 06")
 
 
 def test_an_error_gives_the_keyboard(machine: Machine, tmp_path: Path) -> None:
@@ -246,7 +246,7 @@ def test_an_error_gives_the_keyboard(machine: Machine, tmp_path: Path) -> None:
     process = subprocess.Popen(
         [SKG, "term", machine.link, "--send", part, "--run"], stdin=inner, stdout=inner, stderr=inner
     )
-    read_until(outer, b"line 2: ERR 06, geometry impossible; nothing more was sent")
+    read_until(outer, f"{Phrase('line-number', line=2)}: ".encode())
     os.write(outer, b"PRINT 2\r")
     read_until(outer, b"PRINT 2\r\n>")
     os.write(outer, b"\x1d")
@@ -257,19 +257,19 @@ def test_an_error_gives_the_keyboard(machine: Machine, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "message"),
+    ("text", "facts"),
     [
-        ("10 REM A\n20 REM \u00c4\n", "part.skg: line 2, column 8: '\u00c4'"),
-        ("10 REM\n20 " + "X" * 124, "part.skg: line 2: 127 characters, the board takes 126"),
+        ("10 REM A\n20 REM \u00c4\n", (Phrase("not-ascii", line=2, column=8, character="'\u00c4'"),)),
+        ("10 REM\n20 " + "X" * 124, (Phrase("line-number", line=2), Phrase("line-too-long", length=127, most=126))),
     ],
 )
-def test_what_the_board_cannot_take(machine: Machine, text: str, message: str, tmp_path: Path) -> None:
+def test_what_the_board_cannot_take(machine: Machine, text: str, facts: tuple[Phrase, ...], tmp_path: Path) -> None:
     """Nothing at all is sent of a file that has such a line."""
     part = tmp_path / "part.skg"
     part.write_text(text)
     result = term(machine.link, "--send", part, "--batch")
     assert (result.returncode, machine.lines) == (2, [])
-    assert message in result.stderr.decode()
+    assert says(result.stderr.decode(), "part.skg: ", *facts)
 
 
 def test_a_board_that_is_slow_to_answer(machine: Machine, tmp_path: Path) -> None:
@@ -289,7 +289,7 @@ def test_nobody_there(tmp_path: Path) -> None:
     tty.setraw(slave)
     result = term(os.ttyname(slave), "--send", part, "--batch")
     assert result.returncode == 1
-    assert b"the board does not answer: is it on" in result.stderr
+    assert says(result.stderr.decode(), Phrase("board-no-answer"))
     assert os.read(master, 100) == b"\x15"
     for descriptor in (master, slave):
         os.close(descriptor)
@@ -349,7 +349,7 @@ def test_gives_up(machine: Machine) -> None:
     machine.unplug()
     errors = process.communicate()[1].decode()
     assert process.returncode == 2
-    assert says(errors.splitlines()[-1], "skg: ", f"{machine.link}: ", "no such file or directory")
+    assert says(errors.splitlines()[-1], "skg: ", f"{machine.link}: ", Phrase("port-given-up"))
 
 
 @pytest.mark.parametrize("is_punch", [False, True], ids=["teletype", "punch"])
@@ -372,8 +372,10 @@ def test_listening_to_a_port_that_goes_away(machine: Machine, tmp_path: Path, is
     errors = process.communicate()[1].decode()
     punch.stop()
     assert process.returncode == 1, errors
-    assert says(errors, lost.link, "went away") and says(errors.splitlines()[-1], "lost"), errors
-    assert says(errors, lost.link, "is not back") != comes_back
+    assert says(errors, Phrase("port-went-away", port=lost.link)), errors
+    last = errors.splitlines()[-1]
+    assert says(last, Phrase("port-was-away")) or says(last, Phrase("port-not-back", port=lost.link)), errors
+    assert says(errors, Phrase("port-not-back", port=lost.link)) != comes_back
 
 
 def read_until(descriptor: int, wanted: bytes) -> bytes:
@@ -402,7 +404,7 @@ def test_in_a_terminal(machine: Machine) -> None:
     read_until(outer, b"PRINT 2\r\n>")
     os.write(outer, "PRINT 5−é3\rPRINT 5−3\r".encode())
     seen = read_until(outer, b"PRINT 5-3\r\n>").decode()
-    assert says(seen, "column 9", "é")
+    assert says(seen, Phrase("line-dropped", column=9, character="'é'"))
     os.write(outer, b"\x1d")
     assert process.wait() == 0
     assert machine.lines == ["PRINT 2", "PRINT 5-3"]
@@ -443,12 +445,15 @@ def test_broken_off(machine: Machine, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "facts"),
     [
-        (["/nowhere"], ["skg: /nowhere: ", "no such file or directory"]),
+        (["/nowhere"], ["skg: /nowhere: ", Phrase("system-no-file")]),
         (["nonsense://x"], ["skg: nonsense://x: ", "URL"]),
         (["loop://"], ["skg: loop://: "]),
-        (["/dev/null"], ["skg: /dev/null: ", "serial port"]),
-        (["/dev/null", "--punch-port", "/dev/../dev/null"], ["skg: /dev/../dev/null: ", "teletype", "--punch-port"]),
-        (["/dev/null", "--send", "/nowhere.skg"], ["skg: /nowhere.skg: ", "No such file or directory"]),
+        (["/dev/null"], ["skg: /dev/null: ", Phrase("no-serial-port")]),
+        (
+            ["/dev/null", "--punch-port", "/dev/../dev/null"],
+            ["skg: /dev/../dev/null: ", Phrase("punch-on-port")],
+        ),
+        (["/dev/null", "--send", "/nowhere.skg"], ["skg: /nowhere.skg: ", Phrase("system-no-file")]),
     ],
 )
 def test_bad_ports(arguments: list[str], facts: list[str]) -> None:

@@ -13,7 +13,7 @@ import pytest
 from facthelp import CARE, says
 
 from skg.machine.feeding import feed
-from skg.messages.finding import Phrase
+from skg.messages.finding import Finding, Phrase
 
 ROOT = Path(__file__).resolve().parents[2]
 SKG = Path(sys.executable).with_name("skg")
@@ -79,7 +79,7 @@ def test_recorded_between_dc2_and_dc4(name: str, tmp_path: Path) -> None:
         done = term(machine.link, "--send", part, "--run", "--record", tape, "--batch")
     assert done.returncode == 0, done.stderr
     assert tape.read_bytes() == part.with_suffix(".3b").read_bytes()
-    assert says(done.stderr.decode().splitlines()[-1], f"{tape.stat().st_size} bytes", tape)
+    assert says(done.stderr.decode().splitlines()[-1], Phrase("bytes-punched", number=tape.stat().st_size), tape)
     assert b"ERR" not in done.stdout
 
 
@@ -126,7 +126,8 @@ def test_the_machine_goes_away_and_comes_back(tmp_path: Path) -> None:
         machine.plug()
         paper, errors = sender.communicate()
         assert sender.returncode == 0, errors
-        assert b"went away" in errors and b"is back" in errors
+        told = errors.decode()
+        assert says(told, Phrase("port-went-away")) and says(told, Phrase("port-is-back"))
         assert paper.rstrip(b">").endswith(b"399 REM LINE\r\n")
         kept = term(machine.link, "--quiet", "0.5", stdin="LIST 390,9999\nNEW\n").stdout.decode()
         assert kept.count("REM LINE") == 10
@@ -160,7 +161,7 @@ def test_any_size_goes_through_any_board(rom: str, tmp_path: Path) -> None:
     with emulator(tmp_path, rom, *BOARDS[rom], "--ram", "2") as machine:
         done, tape = run_to_tape(machine, part)
     assert done.returncode == 0, done.stderr
-    assert b"does not fit in the board's memory (ERR 09): sent again without its line numbers" in done.stderr
+    assert says(done.stderr.decode(), Phrase("sent-without-numbers"))
     assert tape == feed(part.read_text(), ram_kib=56).tape
     assert tape.count(b"\n") > 100
 
@@ -239,16 +240,21 @@ WRONG = {
     "unnumbered": (
         "FROM O\nCUT (1,0),(2,0)\n\nCUT (5,5):-A\nCUT (9,9)\nEND\n",
         ["--run"],
-        "part.skg: line 4: ERR 03, ",
+        ("part.skg: ", Phrase("line-number", line=4), "ERR 03"),
         b"(9,9)",
     ),
     "run": (
         "10 CUT O,(5,0)\n20 A=1/0\n",
         ["--run"],
-        "part.skg: at `RUN`: ERR 05 LINE 20, ",
+        ("part.skg: ", Phrase("at-line", text="RUN"), "ERR 05 LINE 20"),
         b"END",
     ),
-    "stored": ("10 REM A\n20 XYZ=\n30 REM B\n", [], "part.skg: line 2: ERR 01, ", b"30 REM B"),
+    "stored": (
+        "10 REM A\n20 XYZ=\n30 REM B\n",
+        [],
+        ("part.skg: ", Phrase("line-number", line=2), "ERR 01"),
+        b"30 REM B",
+    ),
     "full": (zigzag(60, numbered=True), [], Phrase("run-sends-without-numbers"), b">600"),
     "full and jumps": (
         zigzag(60, numbered=True) + "9999 IF 1>2 GOTO 10\n",
@@ -266,12 +272,13 @@ WRONG = {
 ])  # fmt: skip
 def test_nothing_is_sent_behind_an_error(what: str, rom: str, tmp_path: Path) -> None:
     text, options, message, unsent = WRONG[what]
+    facts = message if isinstance(message, tuple) else (message,)
     part, tape = tmp_path / "part.skg", tmp_path / "part.3b"
     part.write_text(text)
     with emulator(tmp_path, rom, *BOARDS[rom], "--ram", "2") as machine:
         done = term(machine.link, "--send", part, "--batch", "--record", tape, *options)
     assert done.returncode == 1
-    said = [line for line in done.stderr.decode().splitlines() if says(line, message)]
+    said = [line for line in done.stderr.decode().splitlines() if says(line, *facts)]
     assert len(said) == 1, done.stderr
     assert unsent not in done.stdout
     kept = tape.with_name("part.3b.part")
@@ -289,7 +296,7 @@ def test_paper_that_nobody_takes(output: str, code: int, tmp_path: Path) -> None
     assert done.returncode == code, done.stderr
     assert "Traceback" not in done.stderr
     if code:
-        assert done.stderr.splitlines()[-1] == "skg: standard output: No space left on device"
+        assert done.stderr.splitlines()[-1] == f"skg: {Finding('system-full').within(Phrase('stdout'))}"
     else:
         assert tape.read_bytes() == part.with_suffix(".3b").read_bytes()
 
@@ -299,7 +306,7 @@ def test_a_tape_that_cannot_be_kept(tmp_path: Path) -> None:
     with emulator(tmp_path, "skg-tty", "--punch-tty") as machine:
         done = term(machine.link, "--send", part, "--run", "--batch", "--record", "/dev/full")
     assert done.returncode == 2
-    assert done.stderr.decode().splitlines()[-1] == "skg: /dev/full: No space left on device"
+    assert done.stderr.decode().splitlines()[-1] == f"skg: {Finding('system-full').within('/dev/full')}"
 
 
 def test_answers_from_a_pipe(tmp_path: Path) -> None:
@@ -329,7 +336,9 @@ def test_the_port_goes_away_while_a_tape_is_made(tmp_path: Path) -> None:
             errors = sender.communicate()[1]
         assert sender.returncode == (0 if numbered else 1), errors
         if numbered:
-            assert b"sent again from its first line" in errors
+            assert says(errors.decode(), Phrase("sent-again"))
             assert (tmp_path / "part.3b").read_bytes() == feed(part.read_text()).tape
         else:
-            assert b"the port went away" in errors and b"the tape is not complete" in errors
+            told = errors.decode()
+            assert says(told, Phrase("port-lost-in-line")) or says(told, Phrase("port-lost-at-line"))
+            assert says(told, Phrase("tape-incomplete"))
