@@ -113,18 +113,6 @@ def pattern(*facts: object) -> str:
     return ".*".join(f"(?=.*{shape(fact)})" if isinstance(fact, Phrase) else shape(fact) for fact in facts)
 
 
-def counts_say(counts: Mapping[str, int], expected: Mapping[object, int]) -> bool:
-    """Tell whether texts with a number each are those expected: facts (one, or a tuple) and the number of the one text
-    that says them; what says more facts is looked for first."""
-    rest = dict(counts)
-    groups = [(facts if isinstance(facts, tuple) else (facts,), count) for facts, count in expected.items()]
-    for facts, count in sorted(groups, key=lambda group: -len(group[0])):
-        saying = [text for text in rest if says(text, *facts)]
-        if len(saying) != 1 or rest.pop(saying[0]) != count:
-            return False
-    return not rest
-
-
 def facts_of(finding: Finding) -> list[object]:
     """The code of a finding, the numbers of its places (line, column, block), and its values."""
     places = [value for source in finding.source if isinstance(source, Phrase) for _, value in source.values]

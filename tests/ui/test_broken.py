@@ -98,7 +98,7 @@ def test_sheet_of_a_process_that_is_gone(server: Server, tmp_path: Path) -> None
     assert run["state"] == "done"
     os.kill(process_of(server), signal.SIGKILL)
     time.sleep(0.2)
-    assert says(page.call("GET", f"/api/run/{number}/sheet").message, "again")
+    assert says(page.call("GET", f"/api/run/{number}/sheet").message, Phrase("page-sheet-gone"))
     assert page.get(f"/api/run/{number}/tape").status == 200
 
 
@@ -219,7 +219,7 @@ def test_full_disk(serve: Callable[[Path], Server], small_disk: Path) -> None:
             file.write(bytes(4096))
     body = {"run": number, "what": ["tape", "program", "job", "sheet"], "overwrite": True}
     answer = page.call("POST", "/api/save", body)
-    assert answer.status == 400 and "No space left" in answer.message
+    assert answer.status == 400 and says(answer.message, Phrase("system-full"))
     assert (small_disk / "plate.nodrift.3b").read_bytes() == b"old"
     assert {path.name for path in small_disk.iterdir()} == {"filler", "plate.dxf", "plate.nodrift.3b"}
     filler.unlink()
@@ -427,7 +427,7 @@ def test_port_that_is_taken(begin: Callable, tmp_path: Path) -> None:
     _, url = begin()
     port = re.search(r":(\d+)/", url)[1]
     done = subprocess.run([SKG, "ui", "--no-browser", "--port", port], capture_output=True, text=True)
-    assert done.returncode == 2 and f"port {port}" in done.stderr and done.stderr.count("\n") == 1
+    assert done.returncode == 2 and says(done.stderr, Phrase("port-failed", port=port)) and done.stderr.count("\n") == 1
 
 
 @pytest.mark.skipif(sys.platform in ("win32", "darwin"), reason="the browser is not given its address as a word there")

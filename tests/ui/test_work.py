@@ -46,7 +46,7 @@ def test_nothing_is_open(page: Page) -> None:
         answer = page.call(method, path, body)
         assert answer.status == 400 and answer.message, path
     run = page.cut(state["rev"])[1]
-    assert run["state"] == "failed" and "no drawing" in english(run["error"])
+    assert run["state"] == "failed" and run["error"]["code"] == "page-no-drawing"
 
 
 def test_drawing(page: Page, tmp_path: Path) -> None:
@@ -296,6 +296,7 @@ def test_no_news(page: Page, monkeypatch: pytest.MonkeyPatch) -> None:
     assert (answer.status, answer.body) == (204, b"")
 
 
+@pytest.mark.wording
 def test_cut(page: Page, tmp_path: Path) -> None:
     """The tape and what belongs to it, as `skg cut` makes them."""
     path = plate(tmp_path)
@@ -472,7 +473,7 @@ def test_saved_again_without_a_contour(serve: Callable[[Path], Server], tmp_path
     state |= page.put(state, contour=[which | {"cut": False}])
     plate(tmp_path, holes=1)
     new = page.done("GET", f"/api/state?after={state['rev']}")
-    assert new["matches"][0]["id"] is None and says(english(new["plan"]["error"]), "contour", "job")
+    assert new["matches"][0]["id"] is None and new["plan"]["error"]["code"] == "contour-lost"
     assert new["plan"]["order"] == [1, 0] and len(new["job"]["contour"]) == 1
     assert page.cut(new["rev"])[1]["state"] == "failed"
     del new["job"]["contour"]
@@ -634,6 +635,7 @@ def test_kept_and_offered(serve: Callable[[Path], Server], tmp_path: Path) -> No
     assert state["offers"] == [] and "machine" not in state["job"] and (tmp_path / "plate.job.toml").exists()
 
 
+@pytest.mark.wording
 def test_name_and_style_of_what_is_saved(saving: tuple[Page, Json, int], tmp_path: Path) -> None:
     page, state, _ = saving
     number, run = page.cut(state["rev"])
