@@ -163,7 +163,10 @@ def rewritten(chinese: Path, english: Path) -> str:
     def block(match: re.Match[str]) -> str:
         other = next(following)
         if other["picture"]:
-            place = os.path.relpath((english.parent / other["picture"]), chinese.parent)
+            picture = english.parent / other["picture"]
+            # (a page's picture may have a Chinese sister)
+            sister = picture.with_name(f"{picture.stem}-zh{picture.suffix}")
+            place = os.path.relpath(sister if sister.exists() else picture, chinese.parent)
             return f"![{match['caption'] or other['caption']}]({place})"
         return match[0] if REMARK.search(other[0]) else other[0]
 
