@@ -43,7 +43,8 @@ def fallen(path: WirePath, cuts: Sequence[Stretch], routes: Sequence[PlannedCont
     for number, some in stretches.items():
         route = routes[number]
         aside = max(abs(r) for r in route.offsets) + LIMIT
-        before, by_tab = [], []
+        before: list[shapely.Geometry] = []
+        by_tab: list[list[shapely.Geometry]] = []
         for cut, pieces in some:
             wire = shapely.union_all(lines_of(path.pieces.some(np.arange(pieces.start, pieces.stop))))
             if cut.passes[0] == len(route.passes):

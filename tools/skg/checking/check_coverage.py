@@ -9,7 +9,6 @@ import numpy as np
 from skg.checking.wire_path import LIMIT, Beside, Misfit, Share, WirePath, first_of_each, place_of
 from skg.geometry.arrays import Flags, Floats, Whole
 from skg.geometry.pieces import Bare, Pieces
-from skg.geometry.plane import cross
 
 #: A place at the end of a piece is looked at so far within it; what is less apart is the same place, mm.
 _INSIDE, _NOISE = 1e-3, 1e-9
@@ -114,6 +113,12 @@ def has_room(contours: Pieces, which: Whole, part: Floats, aside: Floats) -> np.
     return free
 
 
+def _cross(ways: Floats, others: Floats) -> Floats:
+    """z of the vector products of ways (n, 2) and others."""
+    (x, y), (u, v) = ways.T, others.T
+    return x * v - y * u
+
+
 def _by_inner_corners(wire: Pieces, share: Share, widest: float) -> tuple[Whole, Floats]:
     """Places of contours, by pieces and parts, a little to both sides of where the wire is beside them in its inner
     corners: it may turn off too early there, before a step that is lower than R."""
@@ -122,7 +127,7 @@ def _by_inner_corners(wire: Pieces, share: Share, widest: float) -> tuple[Whole,
     # (a wire that turns by less leaves nothing)
     arriving = wire.normal(before, np.ones(len(before)))
     leaving = wire.normal(before + 1, np.zeros(len(before)))
-    turns = np.abs(cross(arriving.T, leaving.T)) > _TURN
+    turns = np.abs(_cross(arriving, leaving)) > _TURN
     before, arriving, leaving = before[turns], arriving[turns], leaving[turns]
     near = contours.nearest(wire.end[before], wire.owner[before], widest + 2 * LIMIT)
     is_there = (near.own_at >= 0) & ~contours.is_chord[near.own_at]
@@ -130,7 +135,7 @@ def _by_inner_corners(wire: Pieces, share: Share, widest: float) -> tuple[Whole,
     part = contours.part(wire.end[before], which)
     away = wire.end[before] - contours.at(which, part)
     # (the wire's way is square to its normal)
-    is_inner = cross((leaving - arriving).T, away.T) > 0
+    is_inner = _cross(leaving - arriving, away) > 0
     which, part, aside = which[is_inner], part[is_inner], 2 * LIMIT / contours.length[which[is_inner]]
     part = np.concatenate((part - aside, part + aside))
     is_on = (part > 0) & (part < 1)

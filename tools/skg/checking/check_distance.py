@@ -155,7 +155,7 @@ class _Wanted:
 def _lead_pieces(route: PlannedContour) -> Iterator[Piece]:
     """The ways between start holes and the contour that a route may take."""
     for run in route.runs():
-        if not run.into:
+        if not (run.into and run.out):
             begin = run.edges[0]
             yield _straight(route.start, begin.start, begin.direction(), run.offset)
             continue
@@ -181,7 +181,8 @@ def _one_lead(lead: Lead, r: float, is_in: bool) -> Iterator[Piece]:
     part = 1 - abs(r) / arc.radius
 
     def inner(place: XY) -> XY:
-        return tuple(h + part * (p - h) for h, p in zip(lead.hole, place, strict=True))
+        (x, y), (u, v) = lead.hole, place
+        return x + part * (u - x), y + part * (v - y)
 
     yield Piece(inner(arc.start), inner(arc.end), arc.centre, arc.sweep)
     yield Piece(lead.hole, inner(arc.start if is_in else arc.end))

@@ -91,7 +91,7 @@ class _Run:
     drawn: list[Segment]
     wire: list[Segment]
     leads: list[Segment]
-    offsets: dict[Curve, float]
+    offsets: dict[Curve | None, float]
     is_closed: bool = False
 
     def r(self, segment: Segment) -> float:
@@ -210,13 +210,14 @@ def _cut_pieces(routes: Sequence[PlacedRoute]) -> Pieces:
     """The cuts of routes on a tape, mm; all have one owner, 0."""
     laid = Laid.joined([Laid.of(route.blocks) for route in routes if not route.is_move] or [Laid.of(())])
     sweeps = np.where(laid.is_line, 0.0, laid.sweeps)
-    places = (side / 1000 for side in (laid.starts, laid.ends, laid.centres))
-    return Pieces.of_columns(*places, sweeps, np.zeros(len(laid), np.int64))
+    start, end, centre = (side / 1000 for side in (laid.starts, laid.ends, laid.centres))
+    return Pieces.of_columns(start, end, centre, sweeps, np.zeros(len(laid), np.int64))
 
 
 def _piece(segment: Segment) -> Piece:
-    if not segment.is_arc:
+    if segment.centre is None:
         return Piece(_xy(segment.start), _xy(segment.end))
+    assert segment.sweep is not None and segment.radius is not None, "an arc has both"
     sweep = copysign(float(segment.sweep), float(segment.radius))
     return Piece(_xy(segment.start), _xy(segment.end), _xy(segment.centre), sweep)
 
@@ -224,10 +225,10 @@ def _piece(segment: Segment) -> Piece:
 def _turned(runs: Sequence[_Run]) -> Iterator[Spoilt]:
     """Circles that the wire goes around on the other side than they are drawn."""
     for run in runs:
-        sweeps: dict[Curve, float] = {}
+        sweeps: dict[Curve | None, float] = {}
         for sign, segments in ((1, run.wire), (-1, run.drawn)):
             for segment in segments:
-                if segment.is_arc:
+                if segment.sweep is not None:
                     sweeps[segment.nominal] = sweeps.get(segment.nominal, 0.0) + sign * float(segment.sweep)
         for segment in run.drawn:
             if segment.is_arc and abs(sweeps.pop(segment.nominal, 0.0)) > _TURN:

@@ -105,15 +105,15 @@ class WirePath:
         self.rows = np.concatenate([np.arange(cut.blocks.start, cut.blocks.stop) for cut in cuts])
         counts = np.array([cut.blocks.stop - cut.blocks.start for cut in cuts])
         owners = np.repeat([cut.route for cut in cuts], counts)
-        places = (side[self.rows] / 1000 for side in (self.laid.starts, self.laid.ends, self.laid.centres))
+        start, end, centre = (side[self.rows] / 1000 for side in (self.laid.starts, self.laid.ends, self.laid.centres))
         sweeps = np.where(self.laid.is_line, 0.0, self.laid.sweeps)[self.rows]
-        self.pieces = Pieces.of_columns(*places, sweeps, owners)
+        self.pieces = Pieces.of_columns(start, end, centre, sweeps, owners)
         self.aside = followed.off_curve[self.rows] / 1000
         #: Which pass each piece belongs to; -1: to any, or that cannot be told.
         self.passes = np.repeat([cut.passes[0] for cut in cuts], counts)
-        for cut, end, count in zip(cuts, np.cumsum(counts).tolist(), counts.tolist(), strict=True):
+        for cut, last, count in zip(cuts, np.cumsum(counts).tolist(), counts.tolist(), strict=True):
             if len(cut.passes) > 1:
-                some = slice(end - count, end)
+                some = slice(last - count, last)
                 self.passes[some] = _passes(cut.passes, routes[cut.route], self.pieces.end[some])
 
     def lengths(self, routes: list[PlannedContour]) -> tuple[float, ...]:
@@ -146,7 +146,7 @@ class WirePath:
     def steps(self, number: int) -> Floats:
         """The controller's places on a piece, mm (m, 2)."""
         piece = self.laid[int(self.rows[number])]
-        places = np.frombuffer(trace_array(piece.block), np.int64).reshape(-1, 2)
+        places = np.frombuffer(memoryview(trace_array(piece.block)), np.int64).reshape(-1, 2)
         return (places - piece.block.start + piece.start) / 1000
 
 

@@ -38,14 +38,15 @@ class Cost:
         passes = sum(len(route.passes) for route in result.routes)
         is_wanted = any((*price.per_area, price.per_hole, price.per_pass))
         is_without = not thick and any((*price.per_area, *machine.rates))
-        parts = None
+        parts: tuple[Decimal, Decimal, Decimal] | None = None
         if is_wanted and (thick or not any(price.per_area)):
             of_passes = [
                 price.per_area[min(turn, len(price.per_area) - 1)] for turn in range(len(areas)) if price.per_area
             ]
-            by_area = sum((area * _exact(each) for area, each in zip(areas, of_passes, strict=False)), Decimal(0))
-            sums = by_area, holes * _exact(price.per_hole), passes * _exact(price.per_pass)
-            parts = tuple(each.quantize(_CENT, ROUND_HALF_UP) for each in sums)
+            of_areas = sum((area * _exact(each) for area, each in zip(areas, of_passes, strict=False)), Decimal(0))
+            sums = of_areas, holes * _exact(price.per_hole), passes * _exact(price.per_pass)
+            by_area, by_hole, by_pass = (each.quantize(_CENT, ROUND_HALF_UP) for each in sums)
+            parts = by_area, by_hole, by_pass
         return cls(thick, areas, holes, passes, parts, price.currency, is_without)
 
     @property

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import tee
@@ -182,7 +182,7 @@ class _Ladder:
                 continue
             why = _no_room(route)
             if why is None:
-                self.routes[number] = _own_way(_straight_lead(route, []) or route, [])
+                self.routes[number] = (_straight_lead(route, []) or route).along_wire()
             elif why.is_crossing:
                 no_room[number] = why
         self._leave_without_room(no_room, self.routes)
@@ -191,12 +191,13 @@ class _Ladder:
         """Try all contours, and those by themselves that did not go through, until all do."""
         numbers = list(self.routes)
         while True:
-            result, troubles = self._try({number: self.routes[number] for number in numbers})
-            if troubles:
-                self._climb(troubles)
+            tried = self._try({number: self.routes[number] for number in numbers})
+            again: list[int] = []
+            if not isinstance(tried, CutResult):
+                self._climb(tried)
+                again = [number for number in self.routes if number in tried]
             elif len(numbers) == len(self.routes):
-                return result
-            again = [number for number in self.routes if number in troubles]
+                return tried
             numbers = again if 0 < 2 * len(again) < len(self.routes) else list(self.routes)
 
     def around_tips(self, result: CutResult) -> CutResult:
@@ -208,27 +209,28 @@ class _Ladder:
                 if _may_be_traced(route) and route.has_spike():
                     around[number] = route.along_wire(Reason.TIPS)
         while around:
-            tried, troubles = self._try(self.routes | around)
-            if not troubles:
+            tried = self._try(self.routes | around)
+            if isinstance(tried, CutResult):
                 with suppress(UserError):
                     refusal.refuse(tried.checked, tried.routes, self.machine)
                     return tried
-            around = {number: route for number, route in around.items() if number not in troubles} if troubles else {}
+                break
+            around = {number: route for number, route in around.items() if number not in tried}
         return result
 
-    def _try(self, routes: dict[int, PlannedContour]) -> tuple[CutResult | None, dict[int, _Trouble]]:
-        """Cut some contours: what comes of it, and which do not go through."""
+    def _try(self, routes: dict[int, PlannedContour]) -> CutResult | Mapping[int, _Trouble]:
+        """Cut some contours: what comes of it, or which do not go through."""
         numbers, program = list(routes), Program(list(routes.values()), self.title, pattern=self.pattern)
         result = _tried(program, self.machine, self.progress)
         if isinstance(result, ErrorLine):
             refused = _refused(program, self.machine) or dict.fromkeys(range(len(numbers)), result)
-            return None, {numbers[index]: error for index, error in refused.items()}
-        troubles: dict[int, _Trouble] = defaultdict(list)
+            return {numbers[index]: error for index, error in refused.items()}
+        misfits: dict[int, list[Misfit]] = defaultdict(list)
         for fault in result.checked.faults:
-            troubles[numbers[fault.route]].append(fault)
-        return result, troubles
+            misfits[numbers[fault.route]].append(fault)
+        return misfits or result
 
-    def _climb(self, troubles: dict[int, _Trouble]) -> None:
+    def _climb(self, troubles: Mapping[int, _Trouble]) -> None:
         """Put each contour on the next rung that helps; one that has none is left or a `UserError`."""
         no_room: dict[int, NoRoom] = {}
         stuck: dict[int, Phrase] = {}

@@ -68,6 +68,7 @@ def _point(point: XY) -> _Item:
 
 def _circle(edge: Edge) -> _Item:
     """An arc's circle, clockwise with a negative radius."""
+    assert edge.centre is not None, "a line has no circle"
     radius = edge.radius if edge.sweep > 0 else -edge.radius
     return _Item(f"{literal(edge.centre)}:{number(radius)}", "C", edge.at(0.5))
 
@@ -389,7 +390,8 @@ def _with_numbers(lines: list[str]) -> str:
     step = 10 if count * 10 <= _LAST_LINE else 1
     if count * step > _LAST_LINE:
         raise UserError(Finding("too-many-lines", lines=count, most=_LAST_LINE))
-    marks, kept = {}, []
+    marks: dict[str, int] = {}
+    kept: list[str] = []
     for line in lines:
         if line.startswith("*"):
             marks[line] = (len(kept) + 1) * step

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import floor, inf
+from typing import Any
 
 from skg.checking.check import Checked
 from skg.checking.gouges import Crossing
@@ -34,7 +35,12 @@ def without_tab(routes: Mapping[int, PlannedContour], fits: dict[int, float], ma
     number = min(fits, key=fits.__getitem__)
     route = routes[number]
     more = Phrase("more-without-tab", count=len(fits) - 1) if len(fits) > 1 else None
-    sentence = {"name": route.name, "why": too_short(fits[number]), "more": more, "leave": _or_leave(machine)}
+    sentence: dict[str, Any] = {
+        "name": route.name,
+        "why": too_short(fits[number]),
+        "more": more,
+        "leave": _or_leave(machine),
+    }
     return UserError(Finding("tab-too-long", contour=route.number, place=route.entry, **sentence))
 
 
@@ -43,8 +49,8 @@ def without_room(routes: Mapping[int, PlannedContour], none: dict[int, NoRoom], 
     number, fit = tightest(routes, none)
     route, no_room = routes[number], none[number]
     more = Phrase("more-without-room", count=len(none) - 1) if len(none) > 1 else None
-    sentence = {"name": route.name, "why": no_room.why, "more": more, "leave": _or_leave(machine)}
-    about = {"contour": route.number, "place": no_room.place}
+    sentence: dict[str, Any] = {"name": route.name, "why": no_room.why, "more": more, "leave": _or_leave(machine)}
+    about: dict[str, Any] = {"contour": route.number, "place": no_room.place}
     if no_room.is_crossing:
         return UserError(Finding("no-room-crossing", **about, **sentence))
     return UserError(Finding("no-room", r=abs(route.widest), fit=_fit(route, fit), **about, **sentence))
@@ -74,7 +80,7 @@ def why_no_room(fault: Misfit) -> Phrase | None:
 def off_drawing(faults: list[Misfit], route: PlannedContour, machine: MachineSetup) -> UserError:
     """Report where a contour's wire is not where the drawing has it: first where it comes into the contour."""
     fault = min(faults, key=lambda fault: not fault.is_into)
-    about = {"name": route.name, "contour": route.number, "place": fault.place}
+    about: dict[str, Any] = {"name": route.name, "contour": route.number, "place": fault.place}
     if why := why_no_room(fault):
         return UserError(Finding("into-itself", why=why, r=abs(route.widest), leave=_or_leave(machine), **about))
     advice = _advice(fault, route, machine)
@@ -92,11 +98,12 @@ def refuse(checked: Checked, routes: list[PlannedContour], machine: MachineSetup
     for cut in checked.cuts:
         route = routes[cut.route]
         if route.contour.is_closed and not route.tabs.each and cut.gap != (0, 0):
-            (dx, dy), about = cut.gap, {"contour": route.number, "place": route.entry}
-            raise UserError(Finding("not-closed", name=route.name, dx=dx, dy=dy, **about))
+            dx, dy = cut.gap
+            where: dict[str, Any] = {"contour": route.number, "place": route.entry}
+            raise UserError(Finding("not-closed", name=route.name, dx=dx, dy=dy, **where))
     for number, place in checked.fallen[:1]:
         route = routes[number]
-        values = {"name": route.name, "tab": route.tabs.length, "aside": abs(route.widest)}
+        values: dict[str, Any] = {"name": route.name, "tab": route.tabs.length, "aside": abs(route.widest)}
         code = "tab-holds-no-part" if route.frees == "part" else "tab-holds-no-slug"
         raise UserError(Finding(code, contour=route.number, place=place, **values))
     spoilt = [

@@ -167,7 +167,8 @@ def _sides(routes: list[PlannedContour]) -> Iterator[Finding]:
 
 def _corners(routes: list[PlannedContour]) -> list[Finding]:
     """Contours that the wire cannot follow everywhere: those that it stays off most first."""
-    straight, around, chords, loops, whiskers = [], [], [], [], []
+    kinds: list[list[Finding]] = [[] for _ in range(5)]
+    straight, around, chords, loops, whiskers = kinds
     for route in routes:
         about = {"turn": route.turn, "contour": route.number}
         for code, kind, trims in (
@@ -190,7 +191,7 @@ def _corners(routes: list[PlannedContour]) -> list[Finding]:
         for far, place, route in sorted(corners(routes), key=lambda corner: -corner.far)
         if far > LIMIT
     ]
-    return [finding for kind in (straight, around, chords, loops, whiskers, narrow) for finding in _first(kind)]
+    return [finding for kind in (*kinds, narrow) for finding in _first(kind)]
 
 
 def _first(kind: list[Finding]) -> list[Finding]:

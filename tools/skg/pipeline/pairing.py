@@ -123,8 +123,8 @@ def _mated(number: int, want: Wanted, nesting: Nesting, member: str) -> Wanted:
     offset = want.offset
     if want.clearance and want.clearance_on == member:
         if want.clearance >= offset:
-            about = {"contour": number, "place": contour.edges[0].start}
-            raise UserError(Finding("clearance-too-large", clearance=want.clearance, offset=offset, **about))
+            sizes = {"clearance": want.clearance, "offset": offset}
+            raise UserError(Finding("clearance-too-large", contour=number, place=contour.edges[0].start, **sizes))
         offset -= want.clearance
     start = want.start
     if start is not None and (number in nesting.holding.around([start])[0]) != (member == DIE):

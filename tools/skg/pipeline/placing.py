@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
-from typing import Any
+from typing import Any, overload
+
+import numpy as np
 
 from skg.errors import UserError
 from skg.geometry.contour import Contour
@@ -31,7 +33,7 @@ def placement_of(place: Place, cut: Sequence[Contour], shift: XY) -> Placement:
     if place == Place():
         return Placement()
     turned = Placement.of(place.turn, place.mirror, place.scale)
-    boxes, _ = boxes_of([turned.contour(contour) for contour in cut]) if cut else ([], [])
+    boxes = boxes_of([turned.contour(contour) for contour in cut])[0] if cut else np.empty((0, 4))
     if isinstance(place.origin, str) and cut:
         wide, high = ORIGINS[place.origin]
         (left, low), (right, top) = boxes[:, :2].min(0).tolist(), boxes[:, 2:].max(0).tolist()
@@ -39,7 +41,8 @@ def placement_of(place: Place, cut: Sequence[Contour], shift: XY) -> Placement:
     else:
         x, y = place.origin if isinstance(place.origin, tuple) else (-shift[0], -shift[1])
         origin = x + shift[0] + 0.0, y + shift[1] + 0.0
-    made = replace(turned, origin=tuple(round(ordinate, 9) + 0.0 for ordinate in origin))
+    x, y = (round(ordinate, 9) + 0.0 for ordinate in origin)
+    made = replace(turned, origin=(x, y))
     if cut:
         x, y = turned.place(made.origin)
         if (far := max(abs(boxes - [x, y, x, y]).max(0).tolist())) >= FARTHEST:
@@ -85,6 +88,10 @@ def placed_wanted(wanted: Wanted, is_closed: bool, placement: Placement) -> Want
     return replace(wanted, tabs=tabs, side=side, start=start, entry=entry)
 
 
+@overload
+def as_drawn(finding: Finding, placement: Placement) -> Finding: ...
+@overload
+def as_drawn(finding: Phrase, placement: Placement) -> Phrase: ...
 def as_drawn(finding: Phrase, placement: Placement) -> Phrase:
     """A message on what is on the machine, with the places of the drawing."""
     if placement.is_nothing:
@@ -137,6 +144,6 @@ def placed_findings(place: Place, placement: Placement, pattern: Pattern | None,
         if copies.around > 1:
             report.append(Finding("copies-around", count=copies.around, angle=copies.angle, about=copies.about))
         else:
-            about = {"columns": copies.columns, "rows": copies.rows, "step": copies.step}
+            about: dict[str, Any] = {"columns": copies.columns, "rows": copies.rows, "step": copies.step}
             report.append(Finding("copies-in-rows", count=copies.count, **about))
     return report

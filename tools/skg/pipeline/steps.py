@@ -12,6 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from hashlib import sha256
+from typing import Any
 
 from skg.checking.as_drawn import as_drawn
 from skg.checking.check_drawn import NEAR, Named, off_drawn
@@ -119,7 +120,7 @@ class DrawnJob:
 def _moved(chosen: Chosen, by: XY) -> Chosen:
     """A chosen contour with its start hole, its entry and its tabs elsewhere."""
     settings = chosen.partial.said()
-    places = {key: shifted(settings[key], by) for key in ("start", "entry") if key in settings}
+    places: dict[str, Any] = {key: shifted(settings[key], by) for key in ("start", "entry") if key in settings}
     if isinstance(tabs := settings.get("tabs"), tuple):
         places["tabs"] = tuple(shifted(tab, by) for tab in tabs)
     return replace(chosen, partial=replace(chosen.partial, **places))
@@ -317,8 +318,8 @@ def _matched(job: Job, drawn: DrawnJob) -> list[Finding]:
     report = [changed or Finding("drawing-changed", drawing=job.drawing)]
     for chosen, match in zip(job.contours, drawn.matches.found, strict=True):
         if match.is_doubtful:
-            place = drawn.contours[match.number].edges[0].start
-            about = {"contour": match.number, "place": place}
+            assert match.number is not None, "what is lost is not doubtful"
+            about: dict[str, Any] = {"contour": match.number, "place": drawn.contours[match.number].edges[0].start}
             report.append(Finding("matched-far", name=chosen.name, moved=match.moved, **about))
     return report
 
@@ -331,15 +332,22 @@ def written(job: Job, drawn: DrawnJob) -> Job:
         contour if match.number is None else drawn.known.choose(match.number, chosen[match.number].partial)
         for contour, match in zip(job.contours, drawn.matches.found, strict=True)
     )
-    box = tuple(round(bound, 6) + 0.0 for bound in drawn.known.box)
+    left, low, right, top = (round(bound, 6) + 0.0 for bound in drawn.known.box)
     starts = tuple(shifted(start, drawn.matches.shift) for start in job.starts)
     place = job.place
     if isinstance(place.origin, tuple):
         place = replace(place, origin=shifted(place.origin, drawn.matches.shift))
-    where = {"place": place, "copies": drawn.copies(job)}
-    return replace(job, sha256=drawn.sha256, box=box, starts=starts, contours=contours, **where)
+    return replace(
+        job,
+        sha256=drawn.sha256,
+        box=(left, low, right, top),
+        place=place,
+        copies=drawn.copies(job),
+        starts=starts,
+        contours=contours,
+    )
 
 
-def choose(drawn: DrawnJob, number: int, **wanted: object) -> Chosen:
+def choose(drawn: DrawnJob, number: int, **wanted: Any) -> Chosen:  # noqa: ANN401
     """Settings for a contour, by its number."""
     return drawn.known.choose(number, Partial(**wanted))

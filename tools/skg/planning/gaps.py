@@ -41,14 +41,14 @@ def nearly_closed(lines: Sequence[Contour]) -> Iterator[NearlyClosed]:
     count, points = Counter(places), shapely.points(places)
     lengths = np.repeat([sum(edge.length for edge in line.edges) for line in lines], 2)
     ends, others = shapely.STRtree(points).query_nearest(points, exclusive=True, all_matches=False)
-    joined = {
+    near = {
         tuple(sorted((places[end], places[other])))
         for end, other in zip(ends.tolist(), others.tolist(), strict=True)
         if count[places[end]] == 1 and distance(places[end], places[other]) <= _PART * lengths[end]
     }
-    if not joined:
+    if not near:
         return
-    joined = sorted(joined)
+    joined = sorted(near)
     drawn, joints = lines_of(list(lines)), shapely.linestrings(joined)
     # (rings that cross themselves, where lines run past corners, come by themselves)
     cells, _, _, crossed = map(shapely.get_parts, shapely.polygonize_full([*drawn, *joints]))

@@ -165,7 +165,7 @@ def findings(around: Iterable[tuple[int, Around | None]]) -> Iterator[Finding]:
         if outer:
             groups[outer].append(number)
     for outer, numbers in groups.items():
-        about = {"count": len(numbers), "contours": in_brackets(numbers), "layers": tuple(outer.layers)}
+        about: dict[str, Any] = {"count": len(numbers), "contours": in_brackets(numbers), "layers": tuple(outer.layers)}
         if outer.gap:
             yield Finding("outlines-in-open-line", gap=outer.gap.width, place=outer.gap.place, **about)
         else:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 from math import inf, pi
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -27,7 +27,7 @@ from skg.planning.entries import (
     longest_tab,
     nearest_entry,
 )
-from skg.planning.loops import tidied
+from skg.planning.loops import Trim, tidied
 from skg.planning.nesting import Around, Nesting
 from skg.planning.order import nearest_order
 from skg.planning.planned import LeadShape, PlannedContour, Remarks, Rung, Tab, Tabs
@@ -68,9 +68,15 @@ class _Choice:
         self.room = -inf
         self.best: tuple[EntryAt, float, XY, XY] | None = None
 
+    @property
+    def tried(self) -> EntryAt:
+        """The entry that is tried; there is one until all were."""
+        assert self.entry is not None, "all entries were tried"
+        return self.entry
+
     def keep(self, part: float, start: XY, tab_hole: XY, room: float) -> None:
         """Keep what was found for the entry, the best one so far."""
-        self.room, self.best = room, (self.entry, part, start, tab_hole)
+        self.room, self.best = room, (self.tried, part, start, tab_hole)
 
     def go_on(self) -> bool:
         """Go on to the next entry; whether there is one."""
@@ -79,6 +85,7 @@ class _Choice:
 
     def planned(self) -> PlannedContour:
         """The contour as it is entered best."""
+        assert self.best is not None, "no entry was tried"
         entry, part, start, tab_hole = self.best
         contour = entry.begun(self.made.contour)
         made = replace(self.made, contour=contour, start=start, part=part, room=self.room)
@@ -113,7 +120,7 @@ class _Columns(NamedTuple):
 
     def rows(self, numbers: Whole) -> _Columns:
         """Some of the rows."""
-        return _Columns(*(column[numbers] for column in self))
+        return _Columns._make(column[numbers] for column in self)
 
 
 class _Planner:
@@ -137,7 +144,8 @@ class _Planner:
                 continue
             is_ccw = contour.area > 0
             is_outside = is_ccw == (sign > 0) if sign else depth % 2 == 0
-            loops, whiskers = (), ()
+            loops: tuple[Trim, ...] = ()
+            whiskers: tuple[Trim, ...] = ()
             if any(passes):
                 contour, loops, whiskers = tidied(contour, max(map(abs, passes)), is_outside)
             tab = want.tab if is_outside else want.slug_tab
@@ -196,8 +204,8 @@ class _Planner:
             right, widest = np.full(len(ends), is_right), np.full(len(ends), abs(made.widest))
             deep = np.minimum(distance(made.start, made.entry), _deepest(before, *_at_ends(behind), right, widest))
             holes = (self._tab_holes(edges, right, deep, widest).tolist() for edges in (before, behind))
-            tabs = (Tab(end, tuple(x), tuple(y)) for end, x, y in zip(ends, *holes, strict=True))
-            made = _with_tabs(made, *tabs, made.tabs.each[-1])
+            others = (Tab(end, tuple(x), tuple(y)) for end, x, y in zip(ends, *holes, strict=True))
+            made = _with_tabs(made, *others, made.tabs.each[-1])
         if made.overlap:
             _refuse_overlap(made)
         return made
@@ -235,23 +243,23 @@ class _Planner:
 
     def _choose(self, choices: Sequence[_Choice]) -> None:
         """Choose the entry with the most room: the first one with enough, else the best one."""
-        edges = [choice.made.contour.edges for choice in choices]
-        first = np.cumsum([0, *map(len, edges)])
-        edges = [edge for group in edges for edge in group]
+        groups = [choice.made.contour.edges for choice in choices]
+        first = np.cumsum([0, *map(len, groups)])
+        edges = [edge for group in groups for edge in group]
         rows, is_curve = rows_of(edges), np.array([bool(edge.nodes) for edge in edges], bool)
         columns = _Columns.of(choices)
         best = np.full(len(choices), -inf)
         left = [index for index, choice in enumerate(choices) if choice.entry is not None]
         while left:
             numbers, tried = np.array(left), [choices[index] for index in left]
-            edge_rows = first[numbers] + np.array([choice.entry.edge for choice in tried])
-            parts = np.array([choice.entry.part for choice in tried])
+            edge_rows = first[numbers] + np.array([choice.tried.edge for choice in tried])
+            parts = np.array([choice.tried.part for choice in tried])
             curves = np.flatnonzero(is_curve[edge_rows]).tolist()
             *results, room, is_enough = self._try(tried, rows[edge_rows], parts, curves, columns.rows(numbers))
             better = np.flatnonzero(room > best[numbers])
             best[numbers[better]] = room[better]
-            results = (column[better].tolist() for column in (*results, room))
-            for index, part, start, tab_hole, space in zip(better.tolist(), *results, strict=True):
+            found = (column[better].tolist() for column in (*results, room))
+            for index, part, start, tab_hole, space in zip(better.tolist(), *found, strict=True):
                 tried[index].keep(part, tuple(start), tuple(tab_hole), space)
             left = [index for index in numbers[~is_enough].tolist() if choices[index].go_on()]
 
@@ -265,25 +273,31 @@ class _Planner:
         """
         places, bearings = _places(rows, parts)
         for index in curves:
-            edge = choices[index].entry.begun(choices[index].made.contour).edges[0]
+            edge = choices[index].tried.begun(choices[index].made.contour).edges[0]
             places[index], bearings[index] = edge.at(0.0), edge.direction()
         reach, widest, is_right, is_arc, has_tab, is_central = columns
         # An opening that is one circle is entered from its centre, on its +X side (language.md, section 4.2).
         circles = np.flatnonzero(_are_circles(rows) & is_central)
         central = circles[self._is_clear_from_centre(rows[circles], widest[circles])]
         for index in central.tolist():
-            edge = choices[index].made.contour.edges[choices[index].entry.edge]
+            edge = choices[index].made.contour.edges[choices[index].tried.edge]
             parts[index] = _part_at(edge, (edge.centre[0] + edge.radius, edge.centre[1]))
             places[index] = edge.at(float(parts[index]))
         starts = rows[:, 4:6].copy()
         others = np.delete(np.arange(len(choices)), central)
         starts[others] = self._holes(
-            *(array[others] for array in (places, bearings, rows, is_right, reach, widest, is_arc))
+            places[others],
+            bearings[others],
+            rows[others],
+            is_right[others],
+            reach[others],
+            widest[others],
+            is_arc[others],
         )
         far = hypots(*(starts - places).T)
         tabs = np.flatnonzero(has_tab)
         if len(tabs):
-            begun = [(choices[index].made, choices[index].entry, float(parts[index])) for index in tabs.tolist()]
+            begun = [(choices[index].made, choices[index].tried, float(parts[index])) for index in tabs.tolist()]
             ends = [_before_tab(entry.begun(made.contour), part, made.tabs.length) for made, entry, part in begun]
             deep = _deepest(ends, places[tabs], bearings[tabs], is_right[tabs], widest[tabs])
             part = np.minimum(1.0, deep / far[tabs])
@@ -433,7 +447,7 @@ def _entry_of(made: PlannedContour, wanted: Wanted) -> EntryAt | None:
     return None
 
 
-def _refusal(code: str, made: PlannedContour, **values: object) -> UserError:
+def _refusal(code: str, made: PlannedContour, **values: Any) -> UserError:  # noqa: ANN401
     """A refusal of a contour that has no turn yet: it is named by its beginning."""
     u, v = made.contour.edges[0].start
     return UserError(Finding(code, u=u, v=v, contour=made.number, **values))
@@ -565,8 +579,8 @@ def _refuse_outer_first(routes: list[PlannedContour], holding: Holding) -> None:
     for route, holders in zip(routes, around, strict=True):
         for outer in (numbered[number] for number in holders if number in numbered):
             if outer.depth < route.depth and outer.turn < route.turn:
-                about = {"contour": outer.number, "place": outer.entry}
-                raise UserError(Finding("outer-first", outer=outer.name, inner=route.name, **about))
+                names = {"outer": outer.name, "inner": route.name}
+                raise UserError(Finding("outer-first", contour=outer.number, place=outer.entry, **names))
 
 
 def _given_starts(nesting: Nesting, wanted: Sequence[Wanted], starts: list[XY]) -> dict[int, XY]:

@@ -8,7 +8,7 @@ from enum import Enum
 from functools import cached_property
 from itertools import pairwise
 from math import inf
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import shapely
 
@@ -134,7 +134,7 @@ class PlannedContour:
     rung: Rung = Rung()
     remarks: Remarks = Remarks()
 
-    def on_rung(self, **changes: object) -> PlannedContour:
+    def on_rung(self, **changes: Any) -> PlannedContour:  # noqa: ANN401
         """The same on another rung: `changes` are fields of `Rung`."""
         return replace(self, rung=replace(self.rung, **changes))
 
@@ -259,6 +259,7 @@ class PlannedContour:
         if not self.overlap:
             return run
         more = beginning(run.edges, self.overlap)
+        assert run.out is not None, "past its end it has leads"
         out = run.out.moved(more[-1].end, more[-1].direction(1.0))
         return replace(run, edges=(*run.edges, *more), out=out)
 

@@ -156,7 +156,8 @@ def split_at_end(edges: tuple[Edge, ...], length: float) -> tuple[tuple[Edge, ..
 
     A curve is split at the node there, or at the one before it.
     """
-    before, tail, left = list(edges), (), length
+    before, left = list(edges), length
+    tail: tuple[Edge, ...] = ()
     while len(before) > 1 and (1 - left / before[-1].length < _INSIDE if tail else left > before[-1].length):
         tail = (before.pop(), *tail)
         left = max(0.0, left - tail[0].length)

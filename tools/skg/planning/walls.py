@@ -84,9 +84,15 @@ def findings(routes: Sequence[PlannedContour], known: Walls | None = None) -> It
     walls = (known or Walls()).of(routes)
     turns = {route.number: route.turn for route in routes} if walls else {}
     for wall in walls[:_PLACES]:
-        both = {"turn": turns[wall.first.number], "other": turns[wall.second.number]}
-        about = {"wide": wall.thick, "kerf": wall.kerfs, "place": wall.place}
-        yield Finding("thin-wall", contour=wall.first.number, **both, **about)
+        yield Finding(
+            "thin-wall",
+            turn=turns[wall.first.number],
+            other=turns[wall.second.number],
+            wide=wall.thick,
+            kerf=wall.kerfs,
+            contour=wall.first.number,
+            place=wall.place,
+        )
     if (more := len(walls) - _PLACES) > 0:
         yield Finding("more-thin-walls", count=more)
 
