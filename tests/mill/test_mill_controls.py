@@ -59,11 +59,12 @@ def test_random_programs(tmp_path: Path) -> None:
 
 
 def test_flat_arcs_are_no_circles(tmp_path: Path) -> None:
-    """The trap: as an arc, a micrometre of a circle of several metres is the whole circle to them."""
+    """The trap: as an arc, two micrometres of a circle of several metres are the whole circle to them. (Up to one, the
+    board refuses it: it is a circle between two equal points.)"""
     parts = [f"CUT ({r},0),O:{r},(0,{r})" for r in (1, 1000, 9000, 40000)]
     parts += [
         f"CUT ({r},0),O:{r},({r}*COS {a},{r}*SIN {a}),(0,0)"
-        for r, a in ((1000, "1E-5"), (4000, "2E-7"), (9000, "1E-7"), (60000, "1E-7"), (60000, "3E-3"))
+        for r, a in ((1000, "1E-4"), (4000, "2E-5"), (9000, "1E-5"), (60000, "2E-6"), (60000, "3E-3"))
     ]
     for part in parts:
         result = mill.run(f"10 F 60\n20 {part}")
