@@ -1,5 +1,5 @@
 /** The lessons beside the program: their words, their tasks, and whether the tape is right. */
-import { get, make, onClick } from "./dom.ts";
+import { get, make, onClick, tell } from "./dom.ts";
 import { t } from "./language.ts";
 import { differenceOf, LessonError, type Lessons, readLessons, type Step } from "./lessons.ts";
 import { pack } from "./link.ts";
@@ -80,28 +80,28 @@ export class Course {
     const step = this.#step;
     if (!step) return;
     const { recording } = this.#bench.stage;
-    const tell = (text: string, isRight = false): void => {
+    const answer = (text: string, isRight = false): void => {
       const box = get("lesson-check");
-      if (box.textContent !== text) box.textContent = text;
+      tell(box, text);
       box.classList.toggle("right", isRight);
       // (on a small screen the drawing is seen now)
       if (text && isSmall()) show(text);
     };
     const isStart = recording.made.program === undefined || recording.made.program === step.program;
-    if (recording.isEmpty || isStart) tell("");
-    else if (!recording.isWhole || recording.how !== "run" || this.#bench.isStale) tell(t("lessonRun"));
+    if (recording.isEmpty || isStart) answer("");
+    else if (!recording.isWhole || recording.how !== "run" || this.#bench.isStale) answer(t("lessonRun"));
     else if (!step.tape) {
       const gap = this.#bench.stage.pictures.gap;
-      tell(t(gap ? "lessonOpen" : "lessonOwn"), !gap);
+      answer(t(gap ? "lessonOpen" : "lessonOwn"), !gap);
     } else {
       const difference = differenceOf(recording.layout, step.tape);
-      if (!difference) tell(t("lessonRight"), true);
+      if (!difference) answer(t("lessonRight"), true);
       else if ("block" in difference) {
-        tell(t("lessonBlock", difference.block));
+        answer(t("lessonBlock", difference.block));
         this.#bench.stage.chooser.choose({ block: difference.block });
       } else {
         const [x, y] = difference.missing.map((each) => (each / 1000).toFixed(1));
-        tell(t("lessonMissing", x ?? "", y ?? ""));
+        answer(t("lessonMissing", x ?? "", y ?? ""));
       }
     }
   }

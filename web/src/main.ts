@@ -58,12 +58,7 @@ const welcome = new Welcome(bench.stage);
 let before = "";
 const session = new Session(workerAddress(), teletype, isEmbedded ? undefined : store, {
   state: (state) => {
-    const { recording } = bench.stage;
-    if (state === "prompt") {
-      if (!isEmbedded) store.tape = recording.kept;
-      void welcome.isCut();
-      void bench.stage.pictures.measured?.then(() => course.check());
-    }
+    if (state === "prompt") finished();
     status.show(state);
   },
   punched: (punched) => {
@@ -74,6 +69,8 @@ const session = new Session(workerAddress(), teletype, isEmbedded ? undefined : 
   memory: (program) => {
     bench.memory(program, before);
     before = program;
+    // (the tape has its program's name now, where both were typed in one go)
+    if (session.state === "prompt") finished();
   },
   error: (number, line) => bench.error(number, line),
   strange: ({ character, column }) => say("dropped", character, column),
@@ -99,6 +96,13 @@ for (const [id, word] of [
     event.preventDefault();
     openReading(word);
   });
+}
+
+/** The machine is at its prompt: the tape is kept for the next visit, a lesson's task is checked. */
+function finished(): void {
+  if (!isEmbedded) store.tape = bench.stage.recording.kept;
+  void welcome.isCut();
+  void bench.stage.pictures.measured?.then(() => course.check());
 }
 
 /** On a small screen the manual stands in front of it. */

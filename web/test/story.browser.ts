@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { existsSync, readFileSync } from "node:fs";
 import { after, before, describe, test } from "node:test";
 import { pack } from "../src/link.ts";
-import { AXE, begin, CHROMIUM, drawn, end, hasLines, longestTask, open, prompt, says, served, shot, visit } from "./chromium.ts";
+import { AXE, begin, CHROMIUM, drawn, end, hasLines, longestTask, open, paste, prompt, says, served, shot, visit } from "./chromium.ts";
 import { serve, WHOLE } from "./served.ts";
 
 interface Axe {
@@ -231,7 +231,8 @@ describe("the story", { skip: existsSync(CHROMIUM) ? false : "chromium is not in
     await hasLines(other.page, ["10 C=O:3", "20 FROM O", "30 END"]);
     await prompt(other.page);
     await other.page.click("#terminal");
-    await other.page.keyboard.type("25 CUT C\r27 BACK\rRUN\r");
+    // (pasted, all in one go: the machine tells the program when the tape is there)
+    await paste(other.page, "25 CUT C\n27 BACK\nRUN\n");
     await says(other.page, "#lesson-check", /^Right/);
     await other.page.click("#lesson-close");
     assert.equal(await other.page.evaluate(() => location.hash), "");
