@@ -3,7 +3,22 @@ import assert from "node:assert/strict";
 import { existsSync, readFileSync } from "node:fs";
 import { after, before, describe, test } from "node:test";
 import { pack } from "../src/link.ts";
-import { AXE, begin, CHROMIUM, drawn, end, hasLines, longestTask, open, paste, prompt, says, served, shot, visit } from "./chromium.ts";
+import {
+  AXE,
+  begin,
+  CHROMIUM,
+  drawn,
+  end,
+  hasLines,
+  longestTask,
+  open,
+  paste,
+  prompt,
+  says,
+  served,
+  shot,
+  visit,
+} from "./chromium.ts";
 import { serve, WHOLE } from "./served.ts";
 
 interface Axe {
