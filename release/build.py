@@ -35,8 +35,9 @@ README = ROOT / "README.md"
 PICO = ROOT / "build" / "pico" / "skg-pico.uf2"
 VERSION = tomllib.loads((ROOT / "tools" / "pyproject.toml").read_text())["project"]["version"]
 _OF_ALL_ROMS = (
-    "A .bin has 8,192 bytes, at 0000; RAM is from 2000H up (RC2014: 8000H). The .hex of the same name is the same in "
-    "Intel hex. Every image runs on an 8080, an 8085 and a Z80. Wiring: docs/boards.md of the project."
+    "A .bin has 8,192 bytes, at 0000; RAM is from 2000H up (RC2014, boards with an 8085: 8000H). The .hex of the same "
+    "name is the same in Intel hex. Every image but skg-8085 runs on an 8080, an 8085 and a Z80. Wiring: "
+    "docs/boards.md of the project. For CP/M's LOAD take skg-cpm.hex of the zip for CP/M, not skg.hex."
 )
 
 
@@ -158,12 +159,10 @@ def rom_list(images: list[str]) -> str:
         # (links are of no use in a text; the row of some machines has as many files)
         plain = re.sub(r" ?\((?:\[[^]]*\]\([^)]*\)(?:, )?)+\)", "", machine).replace("`", "").replace("roms/", "")
         each = plain.split("; ")
-        for at, (words, file) in enumerate(re.findall(r"([^;`]*)`roms/([\w.-]+)`", files)):
-            # (a file with words of its own: "without a serial chip `roms/x.bin`")
-            if words := words.strip():
-                one = f"{plain}, {words}"
-            else:
-                one = each[min(at, len(each) - 1)] if files.count("`roms/") > 1 else plain
+        names = re.findall(r"`roms/([\w.-]+)`", files)
+        if len(names) > 1 and len(names) != len(each):
+            raise SystemExit(f"README.md: {len(each)} machines, but {len(names)} files: {machine}")
+        for file, one in zip(names, each if len(names) > 1 else [plain], strict=True):
             rows[file] = f"{rows[file]}; {one}" if file in rows else one
     rows["skg.sym"] = "names of the standard ROM, for skg80 --debug"
     rows[PICO.name] = "a Raspberry Pi Pico: drop the file on it"

@@ -81,7 +81,10 @@ def test_every_rom_image_is_said_to_be_for_something(monkeypatch: pytest.MonkeyP
 
     images = [file.name for file in (ROOT / "roms").iterdir()]
     text = build.rom_list(images)
-    assert {file for file in images if not file.endswith(".hex")} <= set(re.findall(r"^  (\S+)", text, re.M))
+    about = dict(re.findall(r"^  (\S+) +((?:.|\r\n {25})+)", text, re.M))
+    assert {file for file in images if not file.endswith(".hex")} <= about.keys()
+    assert len(set(about.values())) == len(about), "one machine, two files"
+    assert not any(one in other for one in about.values() for other in about.values() if one != other)
     with pytest.raises(SystemExit, match="skg-new.bin"):
         build.rom_list([*images, "skg-new.bin"])
 
