@@ -10,7 +10,7 @@ import sys
 from contextlib import suppress
 from difflib import get_close_matches
 from importlib import import_module
-from typing import NoReturn
+from typing import NoReturn, TextIO
 
 from skg.interrupts import interrupts_end
 
@@ -56,7 +56,7 @@ class _Closed(io.TextIOBase):
     @property
     def buffer(self) -> NoReturn:
         """The same for bytes."""
-        return self.write("")
+        raise UserError(Finding("stdout-closed"))
 
 
 class LazyGroup(click.Group):
@@ -138,7 +138,7 @@ def _spell(error: UnicodeError) -> tuple[str | bytes, int]:
         return codecs.backslashreplace_errors(error)
 
 
-def _prepare(stream: io.TextIOBase | None) -> None:
+def _prepare(stream: TextIO | None) -> None:
     """Let a standard stream take every text, with the same line ends on every system."""
     if isinstance(stream, io.TextIOWrapper):
         stream.reconfigure(newline="\n", errors="skg-spell")
@@ -179,8 +179,7 @@ def main() -> None:
     except OSError as error:
         if error.filename == "":
             _fail(str(Finding("empty-file-name")))
-        name = Phrase("stdout") if error.filename is None else error.filename
-        _fail(str(of_system(error).within(name)))
+        _fail(str(of_system(error).within(Phrase("stdout") if error.filename is None else error.filename)))
     # (else the interpreter looks through all that is left, and through all modules, once more before it ends)
     gc.freeze()
     sys.exit(code)

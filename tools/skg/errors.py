@@ -28,7 +28,7 @@ _OF_SYSTEM = {
 
 def of_system(error: OSError) -> Finding:
     """An error of the system."""
-    code = _OF_SYSTEM.get(error.errno)
+    code = _OF_SYSTEM.get(error.errno or 0)
     return Finding(code) if code else Finding("system", detail=error.strerror or str(error))
 
 

@@ -22,8 +22,10 @@ from skg.signs import decoded, shown
 
 try:
     import fcntl
+
+    _HAS_LOCKS = True
 except ImportError:
-    fcntl = None
+    _HAS_LOCKS = False
 
 #: The end of the name of a file that is being written; seconds after which it may be what a killed run has left.
 _LEFT, _REST = ".part", 60.0
@@ -65,9 +67,13 @@ def board_text(data: bytes, name: str) -> str:
     text = decoded(without_mark(data).partition(b"\x1a")[0])
     if odd := _ODD.search(text):
         *before, begun = re.split(r"\r\n|[\r\n]", text[: odd.start()])
-        about = {"kind": named(data), "line": len(before) + 1, "column": len(begun) + 1}
+        kind, line, column = named(data), len(before) + 1, len(begun) + 1
         code = _STOPS.get(odd[0])
-        finding = Finding(code, **about) if code else Finding("not-ascii", character=shown(odd[0]), **about)
+        finding = (
+            Finding(code, kind=kind, line=line, column=column)
+            if code
+            else Finding("not-ascii", character=shown(odd[0]), kind=kind, line=line, column=column)
+        )
         raise UserError(finding.within(name))
     return text
 
@@ -151,7 +157,7 @@ def _beside(folder: Path) -> tuple[int, str] | None:
 
 def _hold(descriptor: int) -> bool:
     """Tell whether a file is this process's alone, and keep it so until it is closed."""
-    if fcntl:
+    if _HAS_LOCKS:
         try:
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:

@@ -104,8 +104,7 @@ class _Cut:
 
     def straight(self, place: XY) -> None:
         """A line to a place, mm."""
-        assert self.writer.spot  # (begun at a hole)
-        x, y = self.writer.spot
+        x, y = self.writer.here  # (begun at a hole)
         self.path.append(Piece((x / 1000, y / 1000), place))
         self.writer.line(_spot(place), self.feed)
 

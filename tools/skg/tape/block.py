@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import zip_longest
 from math import atan2, copysign, floor, hypot, isqrt, pi
+from typing import Any
 
 from skg.messages.finding import Finding, Phrase
 
@@ -150,9 +151,11 @@ class Block:
         if self.is_line:
             sign_x, sign_y = _SIGNS[self.quadrant]
             return sign_x * self.x, sign_y * self.y
-        if self._end is None:
-            object.__setattr__(self, "_end", self._arc_end())
-        return self._end
+        end = self._end
+        if end is None:
+            end = self._arc_end()
+            object.__setattr__(self, "_end", end)
+        return end
 
     def _arc_end(self) -> tuple[int, int]:
         if self.is_full_circle:
@@ -177,9 +180,11 @@ class Block:
         """An arc's signed sweep in radians, 0 for a line; a full circle is ±2π."""
         if self.is_line:
             return 0.0
-        if self._sweep is None:
-            object.__setattr__(self, "_sweep", self._arc_sweep())
-        return self._sweep
+        sweep = self._sweep
+        if sweep is None:
+            sweep = self._arc_sweep()
+            object.__setattr__(self, "_sweep", sweep)
+        return sweep
 
     def _arc_sweep(self) -> float:
         if self.is_full_circle:
@@ -273,11 +278,11 @@ class Tape:
     drift_by: Phrase | None = None
     notes: tuple[Finding, ...] = ()
     start: tuple[float, float] = (0.0, 0.0)
-    kept: dict[str, object] = field(default_factory=dict, compare=False, repr=False)
+    kept: dict[str, Any] = field(default_factory=dict, compare=False, repr=False)
 
     @classmethod
-    def of(cls, name: str, items: Iterable[Block | Stop], **fields: object) -> Tape:
-        """The tape of blocks and stops one after the other; `said` are other fields."""
+    def of(cls, name: str, items: Iterable[Block | Stop], **fields: Any) -> Tape:  # noqa: ANN401
+        """The tape of blocks and stops one after the other, with other fields of it."""
         blocks: list[Block] = []
         stops: list[Stop] = []
         for item in items:

@@ -53,7 +53,7 @@ class Blocks(Sequence[Block]):
     def extend(self, more: Blocks) -> None:
         """Add other blocks behind all of these."""
         for column, theirs in zip(self.columns, more.columns, strict=True):
-            column.extend(theirs[more.slice])
+            column.extend(theirs[more.cut])
 
     def numbered(self) -> Blocks:
         """The same blocks, with the numbers that they have on a tape."""
@@ -67,7 +67,7 @@ class Blocks(Sequence[Block]):
         return range(len(self.columns[0])) if self._part is None else self._part
 
     @property
-    def slice(self) -> slice:
+    def cut(self) -> slice:
         """The same, to cut a column with."""
         rows = self.rows
         # (a range that runs down to row 0 stops at -1, which a slice would take for the last row)
@@ -83,13 +83,14 @@ class Blocks(Sequence[Block]):
     def __getitem__(self, index: int | slice) -> Block | Blocks:
         if isinstance(index, slice):
             part = Blocks.__new__(Blocks)
-            part.columns, part._part = self.columns, self.rows[index]
+            part.columns = self.columns
+            part._part = self.rows[index]
             return part
         row = self.rows[index]
         return _block(*(column[row] for column in self.columns))
 
     def __iter__(self) -> Iterator[Block]:
-        return map(_block, *(memoryview(column)[self.slice] for column in self.columns))
+        return map(_block, *(memoryview(column)[self.cut] for column in self.columns))
 
 
 def _block(x: int, y: int, j: int, axis: int, code: int, number: int) -> Block:

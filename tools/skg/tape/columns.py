@@ -37,7 +37,7 @@ FIELDS = ("sense", "quadrant", "x", "y", "j", "counts_y")
 def _roots(squares: Whole) -> Whole:
     """Square roots of whole numbers, rounded down."""
     if squares.dtype == object:
-        return np.frompyfunc(isqrt, 1, 1)(squares)
+        return np.array([isqrt(square) for square in squares.flat], object).reshape(squares.shape)
     roots = np.sqrt(squares.astype(float)).astype(np.int64)
     roots -= roots * roots > squares
     return roots + ((roots + 1) ** 2 <= squares)
@@ -61,7 +61,7 @@ class Columns:
     def of(cls, blocks: Iterable[Block]) -> Columns:
         """The columns of blocks."""
         if isinstance(blocks, Blocks):
-            columns = (np.frombuffer(column, column.typecode)[blocks.slice] for column in blocks.columns)
+            columns = (np.frombuffer(column, column.typecode)[blocks.cut] for column in blocks.columns)
             *lengths, axes, codes, _ = columns
         else:
             blocks = list(blocks)
@@ -201,7 +201,7 @@ class Columns:
     @cached_property
     def sweeps(self) -> Floats:
         """As `Block.sweep`."""
-        sweeps = 2 * pi * self.sense
+        sweeps: Floats = 2 * pi * self.sense.astype(float)
         rows = np.flatnonzero(self.is_arc)
         arcs = self[rows]
         turn = arcs.sense * (directions(arcs.ends) - directions(arcs.starts)) % (2 * pi)

@@ -37,6 +37,12 @@ class GcodeWriter:
         self.feed = ""
 
     @property
+    def here(self) -> Spot:
+        """The tool's place, once it has one."""
+        assert self.spot is not None, "a program begins at a place"
+        return self.spot
+
+    @property
     def text(self) -> str:
         """The program."""
         end = LINE_ENDS[self.dialect.line_end]
@@ -83,7 +89,7 @@ class GcodeWriter:
         """Cut along an arc to a place; one that is told by its radius, and is no less than half a circle, in pieces."""
         for place in self._ends(end, centre, sense) if self.dialect.arcs == "r" else [end]:
             word = self.dialect.counterclockwise if sense > 0 else self.dialect.clockwise
-            goal, to_centre = self._goal(place), minus(centre, self.spot)
+            goal, to_centre = self._goal(place), minus(centre, self.here)
             match self.dialect.arcs:
                 case "r":
                     how = [f"R{self.dialect.length(round(hypot(*to_centre)))}"]
@@ -105,7 +111,7 @@ class GcodeWriter:
 
     def _ends(self, end: Spot, centre: Spot, sense: int) -> list[Spot]:
         """The ends of quarters of a circle, at most, that make an arc."""
-        (x, y), (u, v) = minus(self.spot, centre), minus(end, centre)
+        (x, y), (u, v) = minus(self.here, centre), minus(end, centre)
         radius, first = hypot(x, y), atan2(y, x)
         sweep = sense * (atan2(v, u) - first) % (2 * pi) or 2 * pi
         count = ceil(sweep / (pi / 2) - 1e-9)
@@ -116,7 +122,8 @@ class GcodeWriter:
     def _goal(self, end: Spot) -> list[str]:
         if self.dialect.places == "relative" and self.spot is not None:
             # (what rounding leaves goes into the next block)
-            end = minus(*(tuple(map(self.dialect.rounded, place)) for place in (end, self.spot)))
+            rounded = self.dialect.rounded
+            end = minus((rounded(end[0]), rounded(end[1])), (rounded(self.spot[0]), rounded(self.spot[1])))
         return self._pair("XY", end)
 
     def _pair(self, letters: str, values: Spot) -> list[str]:
@@ -204,17 +211,18 @@ def _cut(writer: GcodeWriter, placed: Placed, feed: str) -> None:
     """A block that cuts; as a line an arc with an end at its centre, or so flat that a control might take it for a full
     circle (milling.md)."""
     end, turns = grid(placed.end), abs(placed.sweep)
-    if not placed.is_line and turns > 2 * pi - 1e-9:
+    centre = None if placed.centre is None else grid(placed.centre)
+    if centre and turns > 2 * pi - 1e-9:
         # Round once, and the few µm by which a block goes on.
-        writer.arc(writer.spot, grid(placed.centre), placed.block.sense, feed)
+        writer.arc(writer.here, centre, placed.block.sense, feed)
         writer.line(end, feed)
         return
-    (dx, dy), (x, y) = minus(end, writer.spot), placed.block.start
+    (dx, dy), (x, y) = minus(end, writer.here), placed.block.start
     is_flat = turns <= pi and (dx * dx + dy * dy) ** 2 <= 4 * (x * x + y * y)
-    if placed.is_line or is_flat or grid(placed.centre) in (writer.spot, end):
+    if centre is None or is_flat or centre in (writer.here, end):
         writer.line(end, feed)
     else:
-        writer.arc(end, grid(placed.centre), placed.block.sense, feed)
+        writer.arc(end, centre, placed.block.sense, feed)
 
 
 def grid(place: tuple[float, float]) -> Spot:
@@ -222,6 +230,6 @@ def grid(place: tuple[float, float]) -> Spot:
     return round(place[0]), round(place[1])
 
 
-def minus(end: tuple[float, float], start: tuple[float, float]) -> tuple[float, float]:
+def minus(end: Spot, start: Spot) -> Spot:
     """The vector from the start to the end."""
     return end[0] - start[0], end[1] - start[1]

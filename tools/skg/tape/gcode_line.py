@@ -121,7 +121,8 @@ class Word(NamedTuple):
 def words(text: str) -> Iterator[Word]:
     """Split a line into words; comments in parentheses and after `;` are nothing, and N words say nothing."""
     text = text.upper()
-    index, end = SPACE.match(text).end(), len(text)
+    blank = SPACE.match(text)
+    index, end = blank.end() if blank else 0, len(text)
     while index < end:
         match = _WORD.match(text, index)
         if not match:

@@ -169,7 +169,8 @@ class GcodeProgram:
         An arc whose end is farther off its circle than a block can be is a `UserError`.
         """
         self._look_at_ends()
-        blocks, stops = Blocks(), []
+        blocks = Blocks()
+        stops: list[Stop] = []
         spot, moved_from = self.home, None
         for part in self.path.parts():
             if isinstance(part, Drilled):

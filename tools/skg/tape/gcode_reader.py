@@ -77,7 +77,7 @@ class _Reader:
             return
         block = self.modes.take(line)
         values, codes = block.values, block.codes
-        if OUTPUTS.intersection(block.turns):
+        if block.output is not None and OUTPUTS.intersection(block.turns):
             self.tool.outputs.add(block.output)
         if block.turns or block.power is not None:
             self.tool.turn(self.findings.line, block.turns, block.power, known.DWELL in codes)
@@ -151,7 +151,8 @@ class _Reader:
         goal = self.place(values, feeds)
         end = _rounded(goal)
         chord = minus(end, start)
-        lowest = (self.height if before is None else min(before, self.height)) if self.knows_height else None
+        height = self.height if self.knows_height else None
+        lowest = height if height is None or before is None else min(before, height)
         cuts = self.cuts(lowest, feeds, is_arc or start != end)
         if is_arc:
             if modes.plane != 17:
@@ -171,7 +172,7 @@ class _Reader:
             self.tool.rapid_heights.add(lowest)
         cuts = feeds and not (moves and self.tool.is_idle(lowest))
         if lowest is not None and (moves or not feeds):
-            (self.depths if cuts else self.travels)[lowest if cuts else self.height] = None
+            (self.depths if cuts else self.travels)[lowest if cuts or self.height is None else self.height] = None
         return cuts
 
     def is_no_way(self, values: dict[str, Word], goal: tuple[Decimal, Decimal], end: Spot) -> bool:
@@ -193,7 +194,7 @@ class _Reader:
 
     def place(self, values: dict[str, Word], feeds: bool) -> tuple[Decimal, Decimal]:
         """Return a line's goal in the plane, µm."""
-        goal = tuple(
+        x, y = (
             self.modes.goal(values, letter, here, self.origin[letter])
             for letter, here in zip("XY", self.position, strict=True)
         )
@@ -201,7 +202,7 @@ class _Reader:
             column = next(iter(values.values())).column
             raise Misread(column, Finding("gcode-away"))
         self.is_away = False
-        return goal
+        return x, y
 
     def go(self, start: Spot, end: Spot, cuts: bool) -> None:
         """Straight to a place; until something has been cut that is where all begins."""
@@ -307,7 +308,7 @@ def _to_centre(modes: Modes, values: dict[str, Word], to_end: Spot, start: Spot,
         if not values.keys().isdisjoint("IJ"):
             raise Misread(column, Finding("gcode-centre-and-radius"))
         return _by_radius(to_end, float(modes.value(values, "R")), modes.sense, column)
-    x, y = minus(tuple(rounded_one(modes.value(values, letter)) for letter in "IJ"), start)
+    x, y = minus((rounded_one(modes.value(values, "I")), rounded_one(modes.value(values, "J"))), start)
     if (x, y) == (0, 0):
         raise Misread(column, Finding("gcode-no-centre"))
     off = abs(hypot(to_end[0] - x, to_end[1] - y) - hypot(x, y))
@@ -377,7 +378,7 @@ def _read_all(text: str, dialect: GcodeDialect | None) -> _Reader:
 def scan(text: str, name: str = "-", dialect: GcodeDialect | None = None) -> tuple[GcodeProgram, list[GcodeFinding]]:
     """Read a program and everything that is wrong with it; what cannot be read is left out of it. `dialect`: that of
     its machine, None: not told."""
-    notes: tuple[str, ...] = ()
+    notes: tuple[Finding, ...] = ()
     if dialect:
         text, notes = understood(text, dialect)
     reader = _read_all(text, dialect)

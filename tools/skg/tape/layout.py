@@ -127,8 +127,8 @@ class Laid(Sequence[Placed]):
             return placed
         rows = [(*item.start, *item.end, *(item.centre or (0, 0)), item.sweep, item.is_line) for item in placed]
         columns = np.array(rows, float).reshape(-1, 8)
-        places = (columns[:, first : first + 2] for first in (0, 2, 4))
-        return cls([item.block for item in placed], *places, columns[:, 6], columns[:, 7] > 0)
+        starts, ends, centres = (columns[:, first : first + 2] for first in (0, 2, 4))
+        return cls([item.block for item in placed], starts, ends, centres, columns[:, 6], columns[:, 7] > 0)
 
     def __len__(self) -> int:
         return len(self.blocks)
@@ -139,8 +139,14 @@ class Laid(Sequence[Placed]):
     def __getitem__(self, index: slice) -> Laid: ...
     def __getitem__(self, index: int | slice) -> Placed | Laid:
         if isinstance(index, slice):
-            columns = (self.starts, self.ends, self.centres, self.sweeps, self.is_line)
-            return Laid(self.blocks[index], *(column[index] for column in columns))
+            return Laid(
+                self.blocks[index],
+                self.starts[index],
+                self.ends[index],
+                self.centres[index],
+                self.sweeps[index],
+                self.is_line[index],
+            )
         index = range(len(self))[index]
         return next(iter(self[index : index + 1]))
 
@@ -155,14 +161,16 @@ class Laid(Sequence[Placed]):
     @classmethod
     def joined(cls, parts: Sequence[Laid]) -> Laid:
         """The blocks of several, at least one, one after the other."""
-        blocks = [part.blocks for part in parts]
-        is_packed = all(isinstance(sequence, Blocks) for sequence in blocks)
+        packed = [part.blocks for part in parts if isinstance(part.blocks, Blocks)]
+        blocks: Sequence[Block] = (
+            Blocks.joined(packed)
+            if len(packed) == len(parts)
+            else list(chain.from_iterable(part.blocks for part in parts))
+        )
         columns = zip(
             *((part.starts, part.ends, part.centres, part.sweeps, part.is_line) for part in parts), strict=True
         )
-        return cls(
-            Blocks.joined(blocks) if is_packed else list(chain.from_iterable(blocks)), *map(np.concatenate, columns)
-        )
+        return cls(blocks, *map(np.concatenate, columns))
 
     def lengths(self) -> Floats:
         """Lengths of the lines and arcs, µm."""

@@ -16,7 +16,7 @@ from skg.tape.controller import CHUNK, State, library, stalled
 
 #: So many blocks are followed at once, at most.
 _CHUNK = 10_000
-_FIELDS = [name for name, _ in State._fields_]
+_FIELDS = [field[0] for field in State._fields_]
 
 
 @dataclass(frozen=True)

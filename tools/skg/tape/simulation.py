@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, overload
 
 from tqdm import tqdm
 
@@ -86,7 +86,13 @@ class _Each(Sequence[BlockReport]):
     def __len__(self) -> int:
         return len(self.blocks)
 
-    def __getitem__(self, index: int) -> BlockReport:
+    @overload
+    def __getitem__(self, index: int) -> BlockReport: ...
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[BlockReport]: ...
+    def __getitem__(self, index: int | slice) -> BlockReport | Sequence[BlockReport]:
+        if isinstance(index, slice):
+            return [self[place] for place in range(len(self))[index]]
         should, really, steps, off_curve = (column[index].tolist() for column in self.columns)
         block = self.blocks[index]
         return BlockReport(block.number, str(block), tuple(should), tuple(really), steps, off_curve)
@@ -117,10 +123,13 @@ def simulate(tape: Tape, feed: float = 5.0, progress: bool = False, positions: s
     should = walked.moves if should is None else should
     # The controller's position, and the sum of the programmed moves, before each block and at the end.
     real, programmed = (np.concatenate([[[0, 0]], moves]).cumsum(axis=0) for moves in (walked.moves, should))
+
+    def gap(places: Whole, first: int, last: int) -> tuple[int, int]:
+        x, y = (places[last] - places[first]).tolist()
+        return x, y
+
     routes = [
-        RouteReport(
-            first + 1, last, *(tuple((places[last] - places[first]).tolist()) for places in (real, programmed)), is_move
-        )
+        RouteReport(first + 1, last, gap(real, first, last), gap(programmed, first, last), is_move)
         for (first, last), is_move in zip(tape.bounds, tape.positioning(), strict=True)
         if first < last
     ]

@@ -30,6 +30,7 @@ _WORD = re.compile(
     _NUMBER + r"(DD|FF|MJ|END|STOP|PAUSE|M[^\S\n]*(?:0?[0-2]|30)(?!\d)|[DAE])(?=[BN]\s*\d|[^A-Z]|$)", re.I
 )
 _BLANK = re.compile(r"[\s,\0\x7f]*")
+_SOMETHING = re.compile(r"\w+|.")
 _COMMENT = re.compile(r"\([^()\n]*\)|(?:;|//|#)[^\n]*")
 _START = re.compile(r"START\s+POINT\s*=\s*([-+]?[\d.]+)\s*,\s*([-+]?[\d.]+)", re.I)
 #: Full-width characters, as Chinese editors write them, and what they mean.
@@ -89,7 +90,7 @@ class _StyleReader:
         self.seen[Phrase("style-blank-tape")] += "\0" in bare or "\x7f" in bare
         index = self._header(bare)
         end, behind = None, 0
-        while (index := _BLANK.match(bare, index).end()) < len(bare):
+        while (index := _behind(_BLANK, bare, index)) < len(bare):
             if block := _BLOCK.match(bare, index):
                 self._block(block)
                 self._note(not re.search(r"[\r\n]", bare[behind:index]) and behind > 0, Phrase("style-several"))
@@ -125,9 +126,9 @@ class _StyleReader:
         if like := _LIKE_A_BLOCK.search(header):
             raise self.error(like.start() + len(like[0]) - len(like[0].lstrip()), Finding("no-block"))
         index = 0
-        while word := _WORD.match(bare, _BLANK.match(bare, index).end()):
+        while word := _WORD.match(bare, _behind(_BLANK, bare, index)):
             index = word.end()
-        if _BLANK.match(bare, index).end() >= first.start():
+        if _behind(_BLANK, bare, index) >= first.start():
             # Nothing but stops: no header.
             return 0
         lines = sum(bool(line.strip()) for line in header.split("\n"))
@@ -136,7 +137,7 @@ class _StyleReader:
 
     def _trailer(self, bare: str, index: int, end: str | None) -> None:
         """Look at what stands after the last word."""
-        index = _BLANK.match(bare, index).end()
+        index = _behind(_BLANK, bare, index)
         if _BLOCK.search(bare, index):
             raise self.error(index, Finding("nothing-after", end=end, found=Phrase("a-block")))
         if like := _LIKE_A_BLOCK.search(bare, index):
@@ -216,11 +217,17 @@ class _StyleReader:
         return (Finding("other-style", notes=tuple(notes)),) if notes else ()
 
 
+def _behind(pattern: re.Pattern[str], text: str, index: int) -> int:
+    """The place behind what a pattern takes at a place; the same where it takes nothing."""
+    match = pattern.match(text, index)
+    return match.end() if match else index
+
+
 def _found(text: str, index: int) -> str | Phrase:
     """Quote the text at a place, for a message."""
     if index >= len(text):
         return Phrase("end-of-tape")
-    word = re.match(r"\w+|.", text[index:])[0][:20]
+    word = text[index : _behind(_SOMETHING, text, index)][:20]
     return repr(word) if word.isprintable() else Phrase("byte", byte=ord(word[0]))
 
 
