@@ -18,6 +18,7 @@ from test_docs import EXAMPLE, ROOT
 from toolhelp import Run
 
 from skg.errors import UserError
+from skg.geometry.plane import XY
 from skg.job.file import decoded, dump, encoded, from_data, load, to_data
 from skg.job.job import INTO, KINDS, ROMS, SMALL, Chosen, Job, MachineSetup, Price, TapeForm
 from skg.job.read_options import OPEN, UNITS, Wishes
@@ -395,6 +396,37 @@ def test_a_drawing_that_has_changed(run: Run, tmp_path: Path) -> None:
         Phrase("drawing-not-there", drawing="part.dxf"),
     )
     assert not (tmp_path / "c.3b").exists()
+
+
+@pytest.mark.parametrize(
+    ("start", "entry", "side"),
+    [
+        ((20.0, 20.0), (20.0, 30.0), "inside"),
+        ((24.0, 24.0), (14.0, 28.0), "inside"),
+        ((20.0, 28.0), (20.0, 30.0), "inside"),
+        ((33.0, 20.0), (28.0, 26.0), "outside"),
+        ((33.0, 20.0), (20.0, 30.0), "outside"),
+    ],
+)
+def test_a_circle_is_entered_where_that_is_asked(tmp_path: Path, start: XY, entry: XY, side: str) -> None:
+    """Also beside its start hole's radius; but not through the circle, which is refused before anything is cut."""
+    page = drawing()
+    page.modelspace().add_circle((20, 20), 10)
+    data = saved(page, tmp_path).read_bytes()
+    job = Job("part.dxf", machine=MachineSetup(offset=0.1))
+    settings = choose(open_drawing(job, data), 0, start=start, entry=entry, side=side)
+    job = replace(job, contours=(settings,))
+    drawn = open_drawing(job, data)
+    if start[0] == 33 and entry[0] == 20:
+        with pytest.raises(UserError) as failed:
+            plan_drawing(job, drawn)
+        finding = failed.value.finding
+        assert (finding.code, finding.contour, finding["start"]) == ("entry-behind", 0, start)
+        return
+    cut = cut_drawing(job, drawn).result
+    x, y = entry[0] - 20, entry[1] - 20
+    reach = 10 / (x * x + y * y) ** 0.5
+    assert cut.routes[0].entry == pytest.approx((20 + reach * x, 20 + reach * y), abs=2e-3)
 
 
 def test_a_contour_that_moved_is_said(run: Run, tmp_path: Path) -> None:

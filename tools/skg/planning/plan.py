@@ -9,10 +9,12 @@ from math import inf, pi
 from typing import Any, NamedTuple
 
 import numpy as np
+import shapely
 
 from skg.errors import UserError
 from skg.geometry.arrays import Flags, Floats, Whole, directions, headings, hypots
-from skg.geometry.contour import Contour, Edge
+from skg.geometry.chords import CUT
+from skg.geometry.contour import Contour, Edge, part_of
 from skg.geometry.edge_arrays import rows_of
 from skg.geometry.holding import Holding
 from skg.geometry.plane import XY, distance
@@ -41,6 +43,8 @@ _ROOMY = 1.5
 _BESIDE = 0.1
 #: A start hole that is given may be nearer to a contour than R by this, mm.
 _NEAR = 1e-3
+#: What is crossed so near to an entry is the contour that is entered there, mm.
+_AT_ENTRY = 0.01
 #: A lead that is an arc is no smaller, mm; chords of a contour lie inside of it by the rest of this, of the radius.
 _LEAST_ARC, _ROUND = 0.05, 0.998
 
@@ -226,8 +230,12 @@ class _Planner:
 
     def _entered(self, made: PlannedContour, wanted: Wanted, is_right: bool) -> PlannedContour:
         """Enter a contour from its start hole at the place that is asked for, or where it is nearest to the hole."""
-        entry = _entry_of(made, wanted) or nearest_entry(made.contour, made.start, made.widest)
+        asked = _entry_of(made, wanted)
+        entry = asked or nearest_entry(made.contour, made.start, made.widest)
         contour, part = entry.begun(made.contour), entry.part
+        if asked and wanted.entry:
+            contour, part = _entered_aside(contour, part, made.start)
+            _refuse_crossing(made, contour.edges[0].at(part))
         if not made.tabs.length:
             return replace(made, contour=contour, part=part)
         contour, part = self._tab_before(contour, part, made)
@@ -445,6 +453,34 @@ def _entry_of(made: PlannedContour, wanted: Wanted) -> EntryAt | None:
         )
         return entry_behind(made.contour, first, made.tabs.length, wanted.widest)
     return None
+
+
+def _entered_aside(contour: Contour, part: float, start: XY) -> tuple[Contour, float]:
+    """A circle that is entered elsewhere than on its start hole's radius as two arcs, the entry in the middle of one:
+    the ROM comes to a whole circle on that radius alone, from the centre on the +X side (language.md, section 4.2)."""
+    circle = contour.edges[0]
+    if not circle.is_circle or circle.centre is None:
+        return contour, part
+    is_centre = distance(start, circle.centre) < _NEAR
+    x, y = circle.centre
+    radial = circle.nearest((x + circle.radius, y) if is_centre else start)
+    if distance(circle.at(radial), circle.at(part)) < _NEAR:
+        return contour, radial
+    turned = chain_from(contour, (part + 0.75) % 1)[0]
+    return replace(contour, edges=(part_of(turned, 0, 0.5), part_of(turned, 0.5, 1))), 0.5
+
+
+def _refuse_crossing(made: PlannedContour, entry: XY) -> None:
+    """Refuse an entry that the wire comes to from the given start hole through the contour itself."""
+    if distance(made.start, entry) < _NEAR:
+        return
+    edges = made.contour.edges
+    chords = [edge.points() if edge.is_line or edge.nodes else edge.parted(edge.chords(CUT)) for edge in edges]
+    way = shapely.LineString([made.start, entry])
+    met = shapely.intersection(way, shapely.LineString([place for places in chords for place in places]))
+    # (the chords beside the entry are crossed where the contour is met there)
+    if not met.is_empty and met.distance(shapely.Point(made.start)) < way.length - abs(made.widest) - _AT_ENTRY:
+        raise _refusal("entry-behind", made, start=made.start, place=entry)
 
 
 def _refusal(code: str, made: PlannedContour, **values: Any) -> UserError:  # noqa: ANN401
