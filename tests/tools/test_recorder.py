@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import fcntl
 import os
 import pty
 import select
@@ -203,6 +204,17 @@ def test_a_port_in_use(attended: Callable, port: Port) -> None:
         text=True,
     )
     assert done.returncode == 2 and done.stderr.count("\n") == 1 and str(port.link) in done.stderr
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="asks Linux")
+def test_a_port_in_use_is_refused_to_who_looks_for_no_lock(attended: Callable, port: Port) -> None:
+    """By the system, to all but root: `cat` of the port would take bytes of the tape. It is free again behind us."""
+    question = 0x80045440  # TIOCGEXCL
+    process, keys = attended()
+    assert int.from_bytes(fcntl.ioctl(port.slave, question, b"\0" * 4), sys.byteorder) == 1
+    os.write(keys, b"\x1d")
+    assert process.wait(PATIENCE) == 0
+    assert int.from_bytes(fcntl.ioctl(port.slave, question, b"\0" * 4), sys.byteorder) == 0
 
 
 def test_not_onto_the_program(tmp_path: Path) -> None:

@@ -28,6 +28,10 @@ from skg.messages.finding import Finding, Phrase
 from skg.messages.render import line as line_of
 from skg.signs import Keys
 
+if os.name == "posix":
+    import fcntl
+    import termios
+
 XON, XOFF, DC2, DC4 = 0x11, 0x13, 0x12, 0x14
 LF, PROMPT = 0x0A, 0x3E
 #: Seconds between two tries to open a port that went away.
@@ -99,7 +103,9 @@ class Port:
             raise UserError(Finding("system", detail=_reason(error)).within(name)) from None
 
     def _open(self) -> serial.SerialBase:
-        return serial.serial_for_url(self.name, **self.settings)
+        opened = serial.serial_for_url(self.name, **self.settings)
+        _claim(opened, True)
+        return opened
 
     def _lost(self, broken: serial.SerialBase, error: Exception) -> None:
         """The port went away: say so, and try to open it until it is back."""
@@ -150,8 +156,17 @@ class Port:
     def close(self) -> None:
         """Close the port for good."""
         self.closing = True
+        _claim(self.serial, False)
         with contextlib.suppress(*_TROUBLE):
             self.serial.close()
+
+
+def _claim(port: serial.SerialBase, is_ours: bool) -> None:
+    """Have the system refuse a port to whoever opens it from now on, or no longer: pyserial's lock holds only those
+    who look for one. (A pseudo-terminal keeps the claim when its user has gone.)"""
+    if os.name == "posix":
+        with contextlib.suppress(*_TROUBLE):
+            fcntl.ioctl(port.fileno(), termios.TIOCEXCL if is_ours else termios.TIOCNXCL)
 
 
 def _is_in_use(error: Exception) -> bool:
