@@ -17,7 +17,7 @@ from collections.abc import Iterable, Mapping
 
 from skg.messages.catalogue import template
 from skg.messages.finding import Finding, Phrase
-from skg.messages.render import Medium, Speech, _Wording, speech, text
+from skg.messages.render import Medium, Speech, _Wording, advice, speech, text
 
 #: The beginning of a line that warns and does not refuse.
 CARE = text(Phrase("care", text="")).rstrip()
@@ -93,10 +93,16 @@ def _value_shape(value: object, spec: str) -> str:
 
 
 def says(text: object, *facts: object) -> bool:
-    """Tell whether one line of a text says all these facts, in whatever order."""
+    """Tell whether one line of a text, or one of some findings, says all these facts, in whatever order."""
     assert facts, "no fact"
     shapes = [re.compile(shape(fact)) for fact in facts]
-    return any(all(fact.search(line) for fact in shapes) for line in str(text).splitlines())
+    lines = [str(finding) for finding in text] if isinstance(text, list) else str(text).splitlines()
+    return any(all(fact.search(line) for fact in shapes) for line in lines)
+
+
+def advised(findings: Iterable[Finding], setting: str) -> list[str | None]:
+    """The values that some findings advise a setting to have."""
+    return [value for finding in findings for name, value in advice(finding) if name == setting]
 
 
 def each_says(lines: str | Iterable[object], *facts: object) -> bool:

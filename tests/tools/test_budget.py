@@ -126,7 +126,7 @@ def test_a_rule_that_asks_in_too_many_ways_is_not_understood() -> None:
     data = page(
         "<style>x g g g g rect{display:none}</style>" + "<g>" * 100 + '<rect width="9" height="9"/>' + "</g>" * 100
     )
-    assert any(says(note, Phrase("rules-missed", count=1)) for note in read(data, "a.svg").report.notes)
+    assert any(says(note, Phrase("rules-missed", count=1)) for note in read(data, "a.svg").report.findings)
 
 
 def svg_of(inner: str) -> Reading:

@@ -129,7 +129,7 @@ def test_a_drawing_that_stands_upright(plane: str, upwards: str) -> None:
 
     flat, standing = (checked(dxf_bytes(drawn(turned=turned))) for turned in (False, True))
     note = Phrase("standing", first=plane[0], second=plane[1])
-    assert any(says(told, note) for told in standing.report.notes)
+    assert any(says(told, note) for told in standing.report.findings)
     assert len(standing.contours) == len(flat.contours) == 5
     for one, other in zip(standing.contours, flat.contours, strict=True):
         assert one.area == pytest.approx(other.area, abs=1e-6)
@@ -157,7 +157,7 @@ def test_a_circle_of_dashes_that_holes_lie_on_is_left() -> None:
     holes = [f"CIRCLE 8 {{}} 10 {x} 20 {y} 40 1" for x, y in ((15, 10), (5, 10), (10, 15), (10, 5))]
     pitch = "CIRCLE 8 AXES 10 10 20 10 40 5"
     reading = checked(types(*square(0, 0, 20, "PART"), pitch, *(hole.format("PART") for hole in holes)))
-    assert len(reading.contours) == 5 and not any(says(note, "1 entity", "dashes") for note in reading.report.notes)
+    assert len(reading.contours) == 5 and not any(says(note, "1 entity", "dashes") for note in reading.report.findings)
     assert left(reading) == {"reason-axis": 1}
     assert not reading.report.overlaps
     data = types(pitch, *(hole.format("PART") for hole in holes))
@@ -237,7 +237,7 @@ def test_a_binary_file_that_went_as_text() -> None:
 def test_inches_are_hinted_at(measurement: int) -> None:
     """A drawing without units says at least by which country's custom its hatches are drawn."""
     header = f"9\n$INSUNITS\n70\n0\n9\n$MEASUREMENT\n70\n{measurement}\n"
-    said = read(raw(*square(0, 0, 9), header=header), "part.dxf").report.lines()[0]
+    said = read(raw(*square(0, 0, 9), header=header), "part.dxf").report.report()[0]
     assert says(said, Phrase("size-guessed", width=9, height=9, units="mm"), Phrase("units-not-told")) and says(
         said, Phrase("size-guessed"), Phrase("units-inches")
     ) == (not measurement)

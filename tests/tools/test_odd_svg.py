@@ -247,14 +247,14 @@ def test_what_is_kept_for_use_is_not_drawn(where: str) -> None:
 def test_what_is_guessed_is_said(content: str, note: list[Phrase]) -> None:
     reading = reading_of(page(content % PART))
     assert len(reading.contours) == 1
-    assert any(says(told, *note) for told in reading.report.notes) if note else not reading.report.notes
+    assert any(says(told, *note) for told in reading.report.findings) if note else not reading.report.findings
     content = '<g stroke="red" stroke-width="0.9" stroke-dasharray="none">%s</g>'
-    assert reading_of(page(content % PART)).report.notes == []
+    assert reading_of(page(content % PART)).report.findings == []
 
 
 @pytest.mark.parametrize("selector", ["a " * 3000 + "a", "a+" * 300 + "a", "|", "a:is()|"])
 def test_a_selector_that_breaks_its_reader_is_said(selector: str) -> None:
-    (note,) = reading_of(page(f"<style>{selector}{{fill:red}}</style>{PART}")).report.notes
+    (note,) = reading_of(page(f"<style>{selector}{{fill:red}}</style>{PART}")).report.findings
     assert says(note, Phrase("rules-missed", count=1, first=selector))
 
 
@@ -270,13 +270,13 @@ def test_style_sheets_that_are_too_deep(sheet: str) -> None:
 )
 def test_style_sheets_in_other_files_are_said(before: str, content: str) -> None:
     reading = reading_of(before.encode() + page(content + PART))
-    assert each_says(reading.report.notes, (Phrase("sheet-elsewhere", name="more.css")))
+    assert each_says(reading.report.findings, (Phrase("sheet-elsewhere", name="more.css")))
     assert boxes(reading) == [WHERE]
 
 
 def test_a_page_that_is_transformed_itself_is_said() -> None:
     reading = reading_of(page(PART, 'width="100mm" height="100mm" viewBox="0 0 100 100" transform="scale(4)"'))
-    assert each_says(reading.report.notes, (Phrase("page-transformed", transform="scale(4)")))
+    assert each_says(reading.report.findings, (Phrase("page-transformed", transform="scale(4)")))
 
 
 @pytest.mark.parametrize(
@@ -333,7 +333,7 @@ def test_animations_are_said() -> None:
     moving = '<g><animateTransform attributeName="transform" type="scale" to="2"/>%s</g><set href="#a" to="1"/>'
     reading = reading_of(page(moving % PART))
     assert boxes(reading) == [WHERE]
-    assert each_says(reading.report.notes, Phrase("animations", count=2))
+    assert each_says(reading.report.findings, Phrase("animations", count=2))
 
 
 def test_parts_of_a_page_without_a_size_are_left() -> None:
@@ -365,9 +365,9 @@ def test_markers_are_said(style: str, is_said: bool) -> None:
         assert len(reading.contours) == 2
         markers = [finding for finding in reading.report.findings if finding.code == "seen-markers"]
         assert [(one["count"], one["layer"], one.place) for one in markers] == [(1, "0", (5, 95))] * is_said
-    assert reading_of(page(f"{head}<g {style}>{PART}</g>")).report.notes == []
+    assert reading_of(page(f"{head}<g {style}>{PART}</g>")).report.findings == []
     unmarked = line % 'style="marker:none"'
-    assert reading_of(page(f"{head}<g {style}>{unmarked}</g>")).report.notes == []
+    assert reading_of(page(f"{head}<g {style}>{unmarked}</g>")).report.findings == []
 
 
 def test_a_line_of_dashes_within_an_outline_is_left() -> None:

@@ -16,7 +16,7 @@ import ezdxf
 import pytest
 from ezdxf import path as dxf_path
 from ezdxf.document import Drawing
-from facthelp import CARE, each_says, pattern, says
+from facthelp import CARE, advised, each_says, pattern, says
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from toolhelp import Run, in_time
@@ -24,8 +24,9 @@ from toolhelp import Run, in_time
 from skg.errors import UserError
 from skg.geometry.contour import Contour
 from skg.geometry.plane import XY, distance
-from skg.messages.finding import Phrase
+from skg.messages.finding import Finding, Phrase
 from skg.messages.render import text
+from skg.messages.severity import Severity
 from skg.reading import dxf_file
 from skg.reading.read import Reading, Wishes, read
 
@@ -237,7 +238,7 @@ def test_what_is_not_flat_or_not_known() -> None:
         ("INSERT", "LOST", (7, 8)),
         ("SPLINE", "NAN", (0, 0)),
     ]
-    text = "\n".join(report.lines())
+    text = report.report()
     assert says(
         text,
         Phrase("entity-not-cut", kind="INSERT", layer="LOST", place=(7, 8)),
@@ -261,7 +262,7 @@ def test_gaps(gap: int) -> None:
     assert contour.is_closed == (gap <= 5)
     if not contour.is_closed:
         assert [end.gap for end in reading.report.open_ends] == pytest.approx([gap / 1e3] * 2)
-        wider = float("\n".join(reading.report.lines()).split("--tolerance ")[1].split()[0])
+        wider = float(advised(reading.report.report(), "tolerance")[0])
         assert checked(data, tolerance=wider).contours[0].is_closed
         with pytest.raises(UserError, match=pattern(Phrase("open-refused", count=1), re.compile(r"\(0, 0"))):
             checked(data, open="refuse")
@@ -281,7 +282,7 @@ def test_ends_past_corners() -> None:
     found = sorted((round(x, 6), round(y, 6)) for x, y in (edge.start for edge in contour.edges))
     assert found == [(0, 0), (0, 20), (40, 0), (40, 20)]
     assert left(reading) == {}
-    text = "\n".join(reading.report.lines())
+    text = reading.report.report()
     assert says(text, Phrase("overruns", count=6, layer="0", longest=0.2))
     assert length(checked(raw(*PAST), open="all").contours) == pytest.approx(length(reading.contours) + 0.55)
 
@@ -295,7 +296,7 @@ def test_lines_of_their_own_past_corners(stub: float, is_corner: bool) -> None:
     if is_corner:
         assert length(reading.contours) == pytest.approx(120)
         assert left(reading) == {"reason-past": 1}
-        assert says("\n".join(reading.report.lines()), Phrase("overruns", count=3, layer="0", longest=max(stub, 0.1)))
+        assert says(reading.report.report(), Phrase("overruns", count=3, layer="0", longest=max(stub, 0.1)))
     # A part whose lines meet at another junction, too, is left as it was.
     reading = checked(raw(*lines, line(40, 0, 40 + stub, 0), line(0, 20, -9, 20)))
     assert not any(one.is_closed for one in reading.contours)
@@ -339,7 +340,7 @@ def test_ends_that_are_no_corners(lines: list[str]) -> None:
     reading = checked(raw(*lines))
     assert not any(contour.is_closed for contour in reading.contours)
     assert length(reading.contours) == pytest.approx(length(checked(raw(*lines), open="all").contours))
-    assert not says("\n".join(reading.report.lines()), Phrase("overruns"))
+    assert not says(reading.report.report(), Phrase("overruns"))
 
 
 @pytest.mark.parametrize("seed", range(40))
@@ -437,11 +438,11 @@ def test_edges_that_parts_share_are_said() -> None:
     reading = checked(data)
     assert left(reading) == {"reason-junction": 5}
     assert each_says(
-        reading.report.notes,
+        reading.report.findings,
         (CARE, Phrase("lines-between", count=4, place=(20, 0)), "--open all"),
         (CARE, Phrase("much-left", cut=120)),
     )
-    assert checked(data, open="all").report.notes == []
+    assert checked(data, open="all").report.findings == []
 
 
 def test_lines_on_a_contour_are_drawn_twice() -> None:
@@ -470,7 +471,7 @@ def test_hatching_centre_lines_and_frames() -> None:
     reading = checked(data)
     assert [contour.layers for contour in reading.contours] == [("PART",), ("PART",)]
     assert left(reading) == {"reason-junction": 6}
-    text = "\n".join(reading.report.lines())
+    text = reading.report.report()
     assert says(
         text,
         "--open all",
@@ -484,7 +485,9 @@ def test_an_outline_that_is_left_is_said() -> None:
     """Its ends lie on a circle that was drawn for half of one: the openings alone are no part."""
     outline = [line(0, 0, 40, 0), line(40, 0, 40, 9), line(40, 11, 40, 20), line(40, 20, 0, 20), line(0, 20, 0, 0)]
     circles = [f"CIRCLE 8 0 10 {x} 20 10 40 1" for x in (10, 30, 40)]
-    said = [note for note in checked(raw(*outline, *circles)).report.notes if says(note, CARE, Phrase("line-around"))]
+    said = [
+        note for note in checked(raw(*outline, *circles)).report.findings if says(note, CARE, Phrase("line-around"))
+    ]
     assert each_says(said, (Phrase("line-around", start=(40, 9), end=(40, 11))))
     for closed in (line(40, 9, 40, 11), line(20, 0, 20, 9)):
         found = checked(raw(*square(0, 0, 40), *circles, closed)).report.findings
@@ -503,13 +506,12 @@ def test_a_gap_in_what_is_left_is_said() -> None:
     drawing = raw(*outline, line(40, 20, 50, 30), "CIRCLE 8 0 10 10 20 10 40 5")
     reading = checked(drawing)
     assert left(reading) == {"reason-junction": 6}
-    notes = "\n".join(reading.report.notes)
+    notes = reading.report.findings
     assert says(notes, Phrase("ends-near", count=2, widest=0.0125), re.compile(r"\(20, 20[\d.]*\)"), "--tolerance")
-    wider = re.search(r"--tolerance ([0-9.]+)", notes)
-    assert wider
-    again = checked(drawing, tolerance=float(wider[1]))
+    (wider,) = advised(notes, "tolerance")
+    again = checked(drawing, tolerance=float(wider))
     assert left(again) == {"reason-junction": 1}
-    assert not any("--tolerance" in note for note in again.report.notes)
+    assert not advised(again.report.findings, "tolerance")
 
 
 def test_an_outline_with_gaps_that_is_left_is_said() -> None:
@@ -519,9 +521,9 @@ def test_an_outline_with_gaps_that_is_left_is_said() -> None:
     hanging = [line(x, y, x * 1.2 - 4, y * 1.2 - 2) for x, y in corners[:4]]
     circles = [f"CIRCLE 8 0 10 {x} 20 10 40 1" for x in (10, 30)]
     said = CARE, Phrase("lines-around")
-    assert any(says(note, *said) for note in checked(raw(*sides, *hanging, *circles)).report.notes)
+    assert any(says(note, *said) for note in checked(raw(*sides, *hanging, *circles)).report.findings)
     for some in ([*sides, *hanging, circles[0]], [*sides[:2], *hanging, *circles], [*square(0, 0, 40), *circles]):
-        assert not any(says(note, *said) for note in checked(raw(*some)).report.notes)
+        assert not any(says(note, *said) for note in checked(raw(*some)).report.findings)
 
 
 def test_outlines_of_one_layer() -> None:
@@ -618,7 +620,7 @@ def test_no_outline_is_refused() -> None:
     # Where nothing else is asked for it is cut as it is drawn, with a word.
     reading = checked(star)
     assert len(reading.contours) == 3 and not left(reading)
-    assert any(says(note, Phrase("no-closed-as-drawn")) for note in reading.report.notes)
+    assert any(says(note, Phrase("no-closed-as-drawn")) for note in reading.report.findings)
 
 
 @given(st.integers(0, 10**9))
@@ -646,7 +648,7 @@ def test_small_whole_numbers_thrown_together(seed: int) -> None:
     assert sum(layer.read for layer in reading.report.layers) == len(entities)
     cut = sum(layer.cut + layer.part for layer in reading.report.layers)
     assert len({edge.entity for contour in reading.contours for edge in contour.edges}) <= cut
-    assert "\n".join(reading.report.lines())
+    assert all(map(str, reading.report.report()))
 
 
 @pytest.mark.parametrize("place", [0, 1e3, 5e5, -4e6])
@@ -676,7 +678,7 @@ def test_many_that_touch() -> None:
     assert len(reading.report.overlaps) == 300
     # each of 50 by 50 squares meets its neighbours at 2·50·49 sides and 2·49·49 corners
     more = Phrase("more-meetings", count=2 * 50 * 49 + 2 * 49 * 49 - 300)
-    assert any(says(note, more) for note in reading.report.notes)
+    assert any(says(note, more) for note in reading.report.findings)
 
 
 def would_be(*sizes: tuple[float, str]) -> Phrase:
@@ -691,7 +693,7 @@ def test_units() -> None:
     inches = raw(*square(0, 0, 2), header="9\n$INSUNITS\n70\n1\n")
     assert read(inches, "a.dxf").report.size == (50.8, 50.8)
     assert says(
-        read(inches, "a.dxf").report.lines()[0],
+        read(inches, "a.dxf").report.report()[0],
         Phrase("size-read", width=50.8, height=50.8, units="inch"),
         Phrase("units-told"),
     )
@@ -704,7 +706,7 @@ def test_units() -> None:
         read(raw(*square(0, 0, 2)), "a.dxf")
     mile = raw(*square(0, 0, 1e-5), header="9\n$INSUNITS\n70\n3\n")
     assert says(
-        read(mile, "a.dxf").report.lines()[0],
+        read(mile, "a.dxf").report.report()[0],
         Phrase("size-read", width=16.0934, height=16.0934, units="mile"),
         Phrase("units-told"),
     )
@@ -719,7 +721,7 @@ def test_units() -> None:
     metres = read(raw(*square(0, 0, 60), header="9\n$INSUNITS\n70\n6\n"), "a.dxf").report
     assert metres.size == (60, 60)
     assert says(
-        metres.lines()[0],
+        metres.report()[0],
         Phrase("size-guessed", width=60, height=60, units="mm"),
         Phrase("units-odd-metres", width=60, height=60),
     )
@@ -740,8 +742,8 @@ def test_units() -> None:
 def test_parts_of_unknown_units_are_doubted() -> None:
     """Up to an inch, and above 1 m, with a word."""
 
-    def notes(side: float, wishes: Wishes | None = None) -> list[str]:
-        return read(raw(*square(0, 0, side)), "a.dxf", wishes).report.notes
+    def notes(side: float, wishes: Wishes | None = None) -> list[Finding]:
+        return read(raw(*square(0, 0, side)), "a.dxf", wishes).report.findings
 
     small = Phrase("size-small", width=8, height=8, other=would_be((203.2, "inch"), (80, "cm")))
     assert each_says(notes(8), (CARE, small, "--units"))
@@ -759,9 +761,9 @@ def test_parts_of_unknown_units_are_doubted() -> None:
 def test_told_units_of_an_odd_size_are_doubted() -> None:
     """A file that says inch and is in mm, or the other way round: read as it says, with a word."""
 
-    def notes(units: int, side: float, wishes: Wishes | None = None) -> list[str]:
+    def notes(units: int, side: float, wishes: Wishes | None = None) -> list[Finding]:
         data = raw(*square(0, 0, side), header=f"9\n$INSUNITS\n70\n{units}\n")
-        return read(data, "a.dxf", wishes).report.notes
+        return read(data, "a.dxf", wishes).report.findings
 
     for units, drawn, size, others in (
         (1, 94, 2387.6, would_be((94, "mm"), (940, "cm"))),
@@ -780,7 +782,7 @@ def test_paper_space_alone() -> None:
     paper = [f"{one} 67 1" for one in square(0, 0, 20)]
     reading = checked(raw(*paper, "TEXT 8 0 10 1 20 1 1 A"))
     assert len(reading.contours) == 1 and left(reading) == {"reason-nothing-to-cut": 1}
-    assert any(says(note, Phrase("paper-space")) for note in reading.report.notes)
+    assert any(says(note, Phrase("paper-space")) for note in reading.report.findings)
     both = checked(raw(*paper, *square(50, 0, 10)))
     assert left(both) == {"reason-paper-space": 4} and both.report.size == (10, 10)
 
@@ -789,9 +791,9 @@ def test_widths_are_said() -> None:
     """A polyline with a width is cut along its middle: said with layer and place, however the width is written."""
     corners = "10 0 20 0 10 30 20 0 10 30 20 20"
     wide = checked(raw(f"LWPOLYLINE 8 WIDE 90 3 70 1 43 0.5 {corners}"))
-    assert says(wide.report.notes[0], Phrase("seen-with-width", count=1, layer="WIDE", place=(0, 0)))
+    assert says(wide.report.findings[0], Phrase("seen-with-width", count=1, layer="WIDE", place=(0, 0)))
     tapering = checked(raw(f"LWPOLYLINE 8 0 90 3 70 1 40 0.0 41 1.5 {corners}"))
-    assert says(tapering.report.notes[0], Phrase("seen-with-width", count=1, layer="0"))
+    assert says(tapering.report.findings[0], Phrase("seen-with-width", count=1, layer="0"))
     plain = checked(raw(f"LWPOLYLINE 8 0 90 3 70 1 43 0.0 40 0 41 0.00 {corners}"))
     assert not any(finding.code == "seen-with-width" for finding in plain.report.findings)
 
@@ -800,10 +802,10 @@ def test_arcs_from_an_angle_to_the_same() -> None:
     """One program's full circle or ellipse is another one's nothing: it is said what was taken."""
     reading = checked(raw("ARC 8 A 10 0 20 0 40 5 50 270.0 51 270.0", "ARC 8 A 10 20 20 0 40 5 50 0 51 360"))
     assert [contour.is_closed for contour in reading.contours] == [True, True]
-    assert each_says(reading.report.notes, Phrase("seen-full-turn", count=1, layer="A", place=(0, -5)))
+    assert each_says(reading.report.findings, Phrase("seen-full-turn", count=1, layer="A", place=(0, -5)))
     reading = checked(raw("ELLIPSE 8 A 10 0 20 0 30 0 11 5 21 0 31 0 40 0.5 41 0.0 42 0.0"))
     assert [contour.is_closed for contour in reading.contours] == [True]
-    assert each_says(reading.report.notes, Phrase("seen-full-turn", count=1, layer="A", place=(5, 0)))
+    assert each_says(reading.report.findings, Phrase("seen-full-turn", count=1, layer="A", place=(5, 0)))
 
 
 def test_arcs_of_nothing_between_lines() -> None:
@@ -818,7 +820,9 @@ def test_arcs_of_nothing_between_lines() -> None:
     reading = checked(raw(*corner, "ARC 8 0 10 50 20 2 40 2 50 90 51 90", line(50, 4, 60, 4)), open="all")
     assert left(reading) == {"reason-between-lines": 1}
     assert sum(contour.edges[0].is_circle for contour in reading.contours) == 1
-    assert any(says(note, Phrase("seen-full-turn", count=1, layer="0", place=(50, 4))) for note in reading.report.notes)
+    assert any(
+        says(note, Phrase("seen-full-turn", count=1, layer="0", place=(50, 4))) for note in reading.report.findings
+    )
     twice = checked(raw(*["ARC 8 0 10 50 20 2 40 2 50 90 51 90"] * 2))
     assert left(twice) == {"reason-twice": 1}
 
@@ -832,10 +836,10 @@ def test_arcs_of_next_to_nothing() -> None:
     for last in ("360", "359.9999999", "360.0000001", "0.00000000000001"):
         reading = checked(raw(ends(5, 0, last)))
         assert reading.contours[0].edges[0].is_circle
-        assert len(reading.report.notes) == (last[:2] == "0.")
+        assert len(reading.report.findings) == (last[:2] == "0.")
     # From just below a whole turn on: a circle or next to nothing, so that it is said.
     reading = checked(raw(ends(5, "359.9999999999", 0)))
-    assert reading.contours[0].edges[0].is_circle and says(reading.report.notes[0], Phrase("seen-full-turn"))
+    assert reading.contours[0].edges[0].is_circle and says(reading.report.findings[0], Phrase("seen-full-turn"))
 
 
 def test_only_unseen_layers() -> None:
@@ -954,11 +958,11 @@ def test_a_text_without_a_code_page(encoding: str, names: list[str], guess: str)
     data = raw(*lines).decode().encode(encoding)
     reading = checked(data)
     assert [layer.layer for layer in reading.report.layers] == sorted(names)
-    (said,) = (note for note in reading.report.notes if "--encoding" in note)
-    assert guess in said
+    (said,) = (note for note in reading.report.findings if advised([note], "encoding"))
+    assert guess in str(said)
     told = checked(data, encoding=encoding)
     assert [layer.layer for layer in told.report.layers] == sorted(names)
-    assert not any("--encoding" in note for note in told.report.notes)
+    assert not advised(told.report.findings, "encoding")
 
 
 def test_a_list_of_layers_says_what_was_guessed(run: Run, tmp_path: Path) -> None:
@@ -1018,7 +1022,7 @@ def test_a_gap_that_is_wider_than_a_wire_is_not_welded(gap: float, is_joined: bo
     """Of such a gap the report says where it is, not which tolerance closes it."""
     reading = checked(raw(line(0, 0, 80, 0), line(80, 0, 80, 80), line(80, 80, 0, 80), line(0, 80, 0, gap)))
     assert [end.gap for end in reading.report.open_ends] == pytest.approx([gap, gap])
-    text = "\n".join(reading.report.lines())
+    text = reading.report.report()
     assert says(text, Phrase("open-end", gap=gap, place=(0, 0)))
     assert says(text, re.compile(r"--tolerance [\d.]+")) == says(text, Phrase("tolerance-joins")) == is_joined
 
@@ -1031,7 +1035,7 @@ def test_without_any_closed_outline_all_is_cut(free: list[str]) -> None:
     """Lines that cross are cut as they are drawn, whatever lies free beside them; with an outline they are left."""
     reading = checked(raw(*CROSS, *free))
     assert len(reading.contours) == 2 + len(free) and left(reading) == {}
-    assert any(says(note, Phrase("no-closed-as-drawn")) for note in reading.report.notes)
+    assert any(says(note, Phrase("no-closed-as-drawn")) for note in reading.report.findings)
     outlined = checked(raw(*CROSS, *free, *square(100, 100, 50)))
     assert left(outlined) == {"reason-junction": 2}
     assert len(outlined.contours) == 1 + len(free)
@@ -1057,13 +1061,14 @@ def test_without_any_closed_outline_what_is_asked_for_holds(word: str) -> None:
 def test_much_that_is_left_is_said(rest: list[str], is_said: bool) -> None:
     """With both lengths, when it is more than a tenth of what is cut and on its layers, and nobody asked for that."""
     reading = checked(raw(*square(100, 0, 30), *rest))
-    said = [note for note in reading.report.notes if says(note, CARE, "--open all", Phrase("much-left"))]
+    said = [note for note in reading.report.findings if says(note, CARE, "--open all", Phrase("much-left"))]
     assert bool(said) == is_said
     if is_said:
         words = [[float(word) for word in entity.split()[4::2]] for entity in rest]
         total = sum(hypot(x2 - x1, y2 - y1) for x1, y1, x2, y2 in words)
         assert says(said[0], Phrase("much-left", left=total, cut=120))
-    assert not any(CARE in note for note in checked(raw(*square(100, 0, 30), *rest), open="all").report.notes)
+    of_all = checked(raw(*square(100, 0, 30), *rest), open="all").report.findings
+    assert not any(finding.severity is Severity.CARE for finding in of_all)
 
 
 def test_dashes_that_are_left_count_and_what_is_open_by_choice_does_not() -> None:
@@ -1072,7 +1077,7 @@ def test_dashes_that_are_left_count_and_what_is_open_by_choice_does_not() -> Non
     axis = line(-50, 15, 50, 15).replace("8 0", "8 0 6 CENTER")
     data = raw(*square(0, 100, 30), axis, line(200, 0, 200, 99), layers=types + layers)
     for wishes, cut in (({}, 219), ({"open": "leave"}, 120)):
-        said = [note for note in checked(data, **wishes).report.notes if says(note, CARE, "--open all")]
+        said = [note for note in checked(data, **wishes).report.findings if says(note, CARE, "--open all")]
         assert each_says(said, Phrase("much-left", left=100, cut=cut))
 
 
@@ -1083,10 +1088,10 @@ def test_a_size_above_two_metres_is_said(side: float, is_said: bool, told: int) 
     side /= 25.4 if told == 1 else 1
     data = raw(*square(0, 0, side), header=f"9\n$INSUNITS\n70\n{told}\n")
     reading = read(data, "part.dxf", Wishes())
-    said = [note for note in reading.report.notes if note.startswith(CARE)]
-    assert len(said) == is_said and all("--units" in note for note in said)
+    said = [finding for finding in reading.report.findings if finding.severity is Severity.CARE]
+    assert len(said) == is_said and all(advised([finding], "units") for finding in said)
     asked = read(data, "part.dxf", Wishes(units="mm" if told == 4 else "inch"))
-    assert not asked.report.notes
+    assert not asked.report.findings
 
 
 @pytest.mark.parametrize("code", range(1, 25))
@@ -1123,12 +1128,12 @@ def test_old_files() -> None:
     data += b"0\nENDSEC\n"
     reading = checked(data)
     assert reading.contours[0].is_closed
-    assert any(says(line, Phrase("no-eof")) for line in reading.report.lines())
+    assert any(says(line, Phrase("no-eof")) for line in reading.report.report())
     # Empty lines where a group should begin are none; an empty value is one.
     blank = raw(*square(0, 0, 9), "TEXT 8 0 10 1 20 1 1 A").replace(b"\n1\nA\n", b"\n1\n\n \n\n\n")
     reading = checked(blank)
     assert len(reading.contours) == 1 and left(reading) == {"reason-nothing-to-cut": 1}
-    assert each_says(reading.report.notes, Phrase("empty-lines"))
+    assert each_says(reading.report.findings, Phrase("empty-lines"))
 
 
 @given(st.data())
@@ -1154,7 +1159,7 @@ def test_damaged_files(data: st.DataObject) -> None:
     except UserError as error:
         assert str(error).startswith("part.dxf: ") and "\n" not in str(error)
     else:
-        assert reading.report.lines()
+        assert all(map(str, reading.report.report()))
 
 
 def _damaged() -> bytes:
@@ -1356,11 +1361,8 @@ def test_told_tolerance_closes_the_gap() -> None:
         data = raw(*drawn, *square(5, 5, shortest))
         with pytest.raises(UserError) as refused:
             read(data, "part.dxf", Wishes(open="refuse"))
-        report = "\n".join(read(data, "part.dxf").report.lines())
-        told[shortest] = {
-            *re.findall(r"--tolerance ([\d.]+)", report),
-            *re.findall(r"--tolerance ([\d.]+)", str(refused.value)),
-        }
+        report = read(data, "part.dxf").report.report()
+        told[shortest] = {*advised(report, "tolerance"), *advised([refused.value.finding], "tolerance")}
     assert not told[0.2] and len(told[1]) == 1
     closed = read(data, "part.dxf", Wishes(tolerance=float(*told[1]), open="refuse")).report
     assert (closed.closed, closed.open, closed.layers[0].cut) == (2, 0, 8)

@@ -54,7 +54,7 @@ def test_each_value_that_is_needed(kind: str, is_odd: bool) -> None:
         rest = [word for pair in pairs if pair[0] != str(code) for word in pair]
         reading = checked(with_block(*square(0, 0, 9), " ".join([kind, *rest])))
         assert refused(reading) == [kind] and len(reading.contours) == 1 and not reading.starts, code
-        assert says("\n".join(reading.report.lines()), Phrase("entity-not-cut", kind=kind))
+        assert says(reading.report.report(), Phrase("entity-not-cut", kind=kind))
     assert NEEDED[kind]
 
 
@@ -135,7 +135,7 @@ def test_a_file_that_ends_behind_a_section() -> None:
     end = data.rindex(b"ENDSEC") + 6
     for behind in (b"", b"\n", b"\r\n"):
         reading = checked(data[:end] + behind)
-        assert len(reading.contours) == 1 and says("\n".join(reading.report.notes), CARE, Phrase("no-eof"))
+        assert len(reading.contours) == 1 and says(reading.report.findings, CARE, Phrase("no-eof"))
     for wrong in (data[: end - 1], data[:end] + b"\n0\n", data[:end] + b"\n0\nSECTION\n2\nOBJECTS\n0\nDICTIONARY\n"):
         with pytest.raises(UserError, match=pattern(Phrase("cut-off"))):
             checked(wrong)
@@ -168,7 +168,7 @@ def test_chinese_names_in_a_file_that_says_western() -> None:
         data = raw(*square(0, 0, 9, name), header=header).decode().encode(encoding)
         hints = [
             note
-            for note in checked(data).report.notes
+            for note in checked(data).report.findings
             if says(note, Phrase("encoding-doubtful", name="ANSI_1252"), "--encoding gbk")
         ]
         assert len(hints) == (encoding == "gbk")

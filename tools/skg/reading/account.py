@@ -11,7 +11,6 @@ from skg.geometry.contour import Edge
 from skg.geometry.plane import XY
 from skg.job.read_options import MEET
 from skg.messages.finding import Finding, Phrase
-from skg.messages.render import line
 
 #: Why what only writes on a drawing, or fills what is drawn, is left.
 NOTE = Phrase("reason-nothing-to-cut")
@@ -198,15 +197,6 @@ class Account:
             return Phrase("first-gap-alone", place=nearest.place)
         about = {"place": nearest.place, "other": nearest.other}
         return Phrase("first-gap", gap=nearest.gap, advice=nearest.advice, **about)
-
-    @property
-    def notes(self) -> list[str]:
-        """The findings as lines of text."""
-        return [line(finding) for finding in self.findings]
-
-    def lines(self) -> list[str]:
-        """The report as lines of text, without the file's name."""
-        return [line(finding) for finding in self.report()]
 
     def report(self) -> list[Finding]:
         """The report, without the file's name."""

@@ -2,7 +2,7 @@
 
     reading = read(data, "part.dxf", Wishes(units="inch"))
     for contour in reading.contours: ...        # Contour: edges (lines, arcs, curves), is_closed, layers
-    print("\\n".join(reading.report.lines()))
+    print(*reading.report.report(), sep="\\n")
 
 `read` is the one door for the commands; what it raises is a `UserError` that says what a person can do.
 """
