@@ -180,3 +180,25 @@ def test_what_is_refused(run: Run, tmp_path: Path) -> None:
     assert not (tmp_path / "a.3b").exists()
     quiet = run("cut", path, "-o", tmp_path / "b.3b", "--scale", "1.5", "--side", "on", "--quiet").stderr
     assert says(quiet, Phrase("scaled", scale=1.5, width=60, height=37.6299))
+
+
+@pytest.mark.parametrize("place", [Place(), Place(origin="centre", turn=30.0)])
+def test_a_refusal_says_that_a_drawing_was_moved_near(tmp_path: Path, place: Place) -> None:
+    """Its places are where the report and the page have the drawing, wherever this lies on the machine."""
+    page = drawing()
+    page.modelspace().add_lwpolyline([(x + 1e6, y - 2e6) for x, y in [(0, 0), (40, 40), (40, 0), (0, 40)]], close=True)
+    job = Job("part.dxf", machine=MachineSetup(offset=0.1), place=place)
+    with pytest.raises(UserError) as failed:
+        cut_drawing(job, open_drawing(job, saved(page, tmp_path).read_bytes()))
+    finding = failed.value.finding
+    assert finding.source == ("part.dxf", Phrase("moved-by", by=(-1_000_000, 2_000_000)))
+    assert finding["why"]["place"] == pytest.approx((20, 20)), finding
+
+
+def test_what_is_drawn_twice_is_moved_near_with_the_drawing(tmp_path: Path) -> None:
+    page = drawing()
+    polygon([(1e6, 0), (1e6 + 40, 0), (1e6 + 40, 30), (1e6, 30)], page)
+    page.modelspace().add_line((1e6, 30), (1e6 + 40, 30))
+    report = open_drawing(Job("part.dxf"), saved(page, tmp_path).read_bytes()).reading.report
+    assert [overlap.kind for overlap in report.overlaps] == ["drawn twice"]
+    assert report.overlaps[0].place in {(0, 30), (40, 30)}

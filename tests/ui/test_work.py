@@ -14,7 +14,7 @@ from threading import Thread, Timer
 import ezdxf
 import pytest
 from click.testing import CliRunner
-from ezdxf import units
+from ezdxf import transform, units
 from facthelp import says
 from uihelp import Json, Page, circles, english, plate, until
 
@@ -238,15 +238,18 @@ def test_other_units(page: Page, tmp_path: Path) -> None:
     assert back["size"] == [60, 30]
 
 
-def test_drawing_that_cannot_be_read(page: Page, tmp_path: Path) -> None:
-    """It is open, and says what is wrong; other options of reading may do."""
+@pytest.mark.parametrize("far", [0, 1_000_000])
+def test_drawing_that_cannot_be_read(page: Page, tmp_path: Path, far: int) -> None:
+    """It is open, and says what is wrong, and where the page shows it; other options of reading may do."""
     path = plate(tmp_path)
     document = ezdxf.readfile(path)
     document.header["$INSUNITS"] = units.MM
     document.modelspace().add_line((100, 0), (120, 0))
+    transform.translate(document.modelspace(), (far, 0, 0))
     document.saveas(path)
     state = page.open(path)
     answer = page.put(state, machine={"offset": 0.1})
+    assert answer["error"]["place"] == [100, 0]
     assert "open" in english(answer["error"]) and answer["contours"] == state["contours"]
     run = page.cut(answer["rev"])[1]
     assert english(run["error"]) == english(answer["error"])

@@ -63,6 +63,12 @@ class DrawnJob:
         """The contours, by their numbers."""
         return self.reading.contours
 
+    @property
+    def source(self) -> tuple[str | Phrase, ...]:
+        """What messages on it begin with: its name, and how far it was moved near, as the places in them are."""
+        by = self.reading.noted.by
+        return (self.name,) if by == (0.0, 0.0) else (self.name, Phrase("moved-by", by=by))
+
     @cached_property
     def sha256(self) -> str:
         """The sum of the file's bytes."""
@@ -166,7 +172,7 @@ def wanted_of(job: Job, drawn: DrawnJob) -> list[Wanted]:
 
 def members_of(job: Job, drawn: DrawnJob) -> list[DrawnJob]:
     """The drawing as the part, or once as the punch and once as the die."""
-    with placing.told_as_drawn(Placement(), drawn.name):
+    with placing.told_as_drawn(Placement(), *drawn.source):
         return [replace(drawn, member=member) for member in pairing.members(wanted_of(job, drawn), drawn.nesting)]
 
 
@@ -174,7 +180,7 @@ def plan_drawing(job: Job, drawn: DrawnJob) -> list[PlannedContour]:
     """The contours in the order in which they are cut. A contour that is lost, or that cannot be planned, is a
     `UserError`."""
     refuse_lost(job, drawn)
-    with placing.told_as_drawn(Placement(), drawn.name):
+    with placing.told_as_drawn(Placement(), *drawn.source):
         wanted = wanted_of(job, drawn)
     return plan_placed(job, drawn, wanted)
 
@@ -186,14 +192,14 @@ def plan_placed(
     before: dict[int, tuple[Asked, PlannedContour]] | None = None,
 ) -> list[PlannedContour]:
     """Plan contours on the machine; see `plan_nested`. `wanted`: wishes for each, with places of the drawing."""
-    with placing.told_as_drawn(Placement(), drawn.name):
+    with placing.told_as_drawn(Placement(), *drawn.source):
         placement, nesting = drawn.placement(job), drawn.placed(job)
     on_machine = [
         placing.placed_wanted(want, contour.is_closed, placement)
         for contour, want in zip(drawn.contours, wanted, strict=True)
     ]
     starts = [placement.place(start) for start in starts_of(job, drawn)]
-    with placing.told_as_drawn(placement, drawn.name):
+    with placing.told_as_drawn(placement, *drawn.source):
         return plan_nested(nesting, starts, on_machine, before)
 
 
@@ -211,7 +217,7 @@ def refuse_lost(job: Job, drawn: DrawnJob) -> None:
     for index in lost:
         more = Phrase("nor-others", count=len(lost) - 1) if len(lost) > 1 else None
         finding = Finding("contour-lost", index=index + 1, name=job.contours[index].name, more=more)
-        raise UserError(finding.within(drawn.name))
+        raise UserError(finding.within(*drawn.source))
 
 
 def cut_all(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> list[CutDrawing]:
@@ -231,7 +237,7 @@ def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> C
     routes = plan_drawing(job, drawn)
     placement = drawn.placement(job)
     drawn.placed(job).release()
-    with placing.told_as_drawn(placement, drawn.name):
+    with placing.told_as_drawn(placement, *drawn.source):
         pattern = drawn.pattern(job)
         result = make(routes, job.drawing, job.machine, progress, pattern)
     left = {number: UNWANTED for number, want in enumerate(wanted_of(job, drawn)) if not want.cut}
@@ -270,7 +276,7 @@ def _beside_file(result: CutResult, job: Job, drawn: DrawnJob, account: Account,
         contours = as_drawn(contours, job.place, placement.origin, copies, number)
         off, place = off_drawn(contours, drawn.reading.nominal, account.whole, named)
         if off > NEAR:
-            raise UserError(Finding("off-the-file", place=place, off=1000 * off).within(drawn.name))
+            raise UserError(Finding("off-the-file", place=place, off=1000 * off).within(*drawn.source))
         worst = max(worst, off)
     return replace(result, checked=replace(result.checked, off=result.checked.off + scale * worst))
 

@@ -153,6 +153,7 @@ def _near_origin(reading: Reading) -> Reading:
     by = -floor(report.low[0]), -floor(report.low[1])
     report.findings = [*(_moved(finding, by) for finding in report.findings), Finding("moved-near", by=by)]
     report.overlaps = [replace(overlap, place=shifted(overlap.place, by)) for overlap in report.overlaps]
+    reading.fates.by = by
     for entity in reading.fates.entities:
         entity.place = shifted(entity.place, by)
     report.low, report.high = shifted(report.low, by), shifted(report.high, by)

@@ -213,7 +213,8 @@ class Selection:
 
 class Fates:
     """The fate of each entity's edges. `doubles`: runs of those drawn twice, with an edge of what each was drawn
-    on: where that one is left, they are left with it. `lost`: what is left of each layer unasked, mm."""
+    on: where that one is left, they are left with it. `lost`: what is left of each layer unasked, mm. `by`: how far the
+    drawing was moved since, mm; the entities with it, the doubles not."""
 
     def __init__(self, content: Content, tolerance: float) -> None:
         self.entities = content.entities
@@ -222,6 +223,7 @@ class Fates:
         self.parts = Counter(edge.entity for edge in content.edges)
         self.gone: dict[int, Counter[Phrase]] = defaultdict(Counter)
         self.lost: dict[str, float] = defaultdict(float)
+        self.by: XY = (0.0, 0.0)
 
     def of_edges(self, edges: Iterable[Edge], why: Phrase) -> None:
         """Say why edges are not cut."""
@@ -321,7 +323,7 @@ class Fates:
             near = (distance(middle, place) <= 2 * self.tolerance for place in middles[number])
             if any(near) if number in partly else cut[number]:
                 self.of_edges(run, DOUBLE)
-                overlaps.append(self.overlap(TWICE, run[0], run[0].start))
+                overlaps.append(self.overlap(TWICE, run[0], shifted(run[0].start, self.by)))
             else:
                 self.of_edges(run, next((why for why in self.gone[number] if why not in _WITH_OTHERS), DOUBLE))
         report.overlaps[:0] = overlaps

@@ -21,7 +21,7 @@ from skg.job.wanted import Partial
 from skg.messages.finding import Finding
 from skg.messages.render import speech
 from skg.pipeline.pairing import named
-from skg.pipeline.placing import told_as_drawn
+from skg.pipeline.placing import as_drawn, told_as_drawn
 from skg.pipeline.steps import (
     CutDrawing,
     DrawnJob,
@@ -180,7 +180,11 @@ class Desk:
                 with suppress(UserError):
                     self._seen = open_drawing(replace(job, read=replace(job.read, open="cut")), self._data)
                     drawing = shown.drawing(self._seen)
-            matches = self._matches(self._seen.known.find(job.contours, job.box).found) if self._seen else []
+            matches = []
+            if self._seen:
+                matches = self._matches(self._seen.known.find(job.contours, job.box).found)
+                # (it has places of the file, which the page shows moved near)
+                error.finding = as_drawn(error.finding, Placement(origin=self._seen.reading.noted.by))
             state = {"job": job_files.to_data(job), "matches": matches, "plan": None, "error": told(error)}
             return {"drawing": drawing, "state": {"name": job.drawing} | state}
         self._job = written(job, self._drawn)
@@ -221,7 +225,7 @@ class Desk:
         with _noted(errors):
             refuse_lost(self._job, self._drawn)
         job, placement, nesting = self._job, Placement(), self._drawn.nesting
-        with _noted(errors), told_as_drawn(Placement(), self._drawn.name):
+        with _noted(errors), told_as_drawn(Placement(), *self._drawn.source):
             placement, nesting = self._drawn.placement(job), self._drawn.placed(job)
         if nesting is self._drawn.nesting:
             # (what cannot be placed is shown as it is drawn)
