@@ -20,7 +20,7 @@ define HELP
   make rs274      LinuxCNC's interpreter for the tests of milling tapes, out of Debian's packages
   make web        the machine in a web page, web/dist; make web-serve shows it, make test-web tries it in browsers
   make ui-page    the page of skg ui, tools/skg/ui/assets
-  make web-wasm   the page's .wasm from emu/: needs clang 14 and lld 14
+  make web-wasm   the page's .wasm from emu/: needs clang 14, lld 14 and wasi-libc
   make hunt       new examples for the tests that take any, random programs, ROM against reference (PROGRAMS=1000000, SEED)
   make pico       the machine for a Raspberry Pi Pico, build/pico/skg-pico.uf2; make test-pico runs it in rp2040js
   make board      the netlist of docs/board.md, looked through by SKiDL's electrical rules

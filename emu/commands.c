@@ -2,7 +2,7 @@
 #include "debug_state.h"
 
 #include "complain.h"
-#include "disasm.h"
+#include "listing.h"
 #include "terminal.h"
 #include "trace.h"
 
@@ -12,9 +12,9 @@
 #include <strings.h>
 #include <unistd.h>
 
-enum { LINE = 256, STACK_WORDS = 12, CODE_LINES = 12, MEMORY_ROW = 16, LONGEST = 1000 };
+enum { LINE = 256, STACK_WORDS = 12, CODE_LINES = 12, MEMORY_ROW = 16 };
 enum { OPCODE_CALL = 0xcd, OPCODE_CALLS = 0xc4, OPCODE_RST = 0xc7 };
-enum { RST_ERROR = 0xcf, RST_EXPECT = 0xe7, RST_CALC = 0xef };
+enum { RST_CALC = 0xef };
 
 /* ---- display ---- */
 
@@ -25,30 +25,6 @@ static void show_place(const debug *d)
         trace_operation(c, d->calculator, stderr);
     } else {
         trace_instruction(c, d->names, stderr);
-    }
-}
-
-/* Bytes behind a restart are its data: one behind RST 1 and RST 4, byte-code behind RST 5. Gives the address behind. */
-static uint16_t show_data(const debug *d, uint8_t opcode, uint16_t address)
-{
-    if (d->calculator && (opcode == RST_ERROR || opcode == RST_EXPECT)) {
-        fprintf(stderr, "%04X %-10s DB %02X\n", address, "", i8080_peek(&d->board->cpu, address));
-        return (uint16_t)(address + 1);
-    }
-    bool code = d->calculator && opcode == RST_CALC;
-    return code ? calculator_print_code(d->calculator, &d->board->cpu, address, LONGEST, stderr) : address;
-}
-
-static void show_code(const debug *d, uint16_t address, unsigned count)
-{
-    const i8080 *c = &d->board->cpu;
-    while (count--) {
-        const uint8_t code[] = { i8080_peek(c, address), i8080_peek(c, (uint16_t)(address + 1)),
-                                 i8080_peek(c, (uint16_t)(address + 2)) };
-        char text[DISASM_TEXT], place[SYMBOLS_PLACE];
-        unsigned length = disasm(d->names, code, text);
-        fprintf(stderr, "%04X %-10s %s\n", address, symbols_place(d->names, address, place), text);
-        address = show_data(d, code[0], (uint16_t)(address + length));
     }
 }
 
@@ -204,12 +180,17 @@ static void do_registers(debug *d, const words *w)
     trace_instruction(&d->board->cpu, d->names, stderr);
 }
 
+static unsigned at_most(uint64_t count)
+{
+    return count > LISTING_LONGEST ? LISTING_LONGEST : (unsigned)count;
+}
+
 static void do_list(debug *d, const words *w)
 {
     uint16_t address;
     uint64_t count;
     if (get_address(d, w->first, d->board->cpu.pc, &address) && get_number(w->second, CODE_LINES, &count)) {
-        show_code(d, address, count > LONGEST ? LONGEST : (unsigned)count);
+        listing_print(d->names, d->calculator, &d->board->cpu, address, at_most(count), stderr);
     }
 }
 
@@ -223,10 +204,10 @@ static void do_code(debug *d, const words *w)
     }
     if (!w->first && !trace_at_operation(c, d->calculator)) {
         fputs("the calculator is not at an operation: code PLACE\n", stderr);
-    } else if (get_address(d, w->first, c->bc, &address) && get_number(w->second, LONGEST, &count)) {
+    } else if (get_address(d, w->first, c->bc, &address) && get_number(w->second, LISTING_LONGEST, &count)) {
         /* (a routine that begins with DB CALC: its byte-code stands behind the restart) */
         address += !*d->calculator->code[RST_CALC] && i8080_peek(c, address) == RST_CALC;
-        calculator_print_code(d->calculator, c, address, count > LONGEST ? LONGEST : (unsigned)count, stderr);
+        calculator_print_code(d->calculator, c, address, at_most(count), stderr);
     }
 }
 

@@ -17,10 +17,10 @@ static bool names_a_gap(const symbol *s)
 /* One line of the file, up to its LF; false when it is none. */
 static bool read_line(const char *text, symbol *s)
 {
-    char line[96], file[64], more;
+    char line[96], more;
     unsigned value;
     snprintf(line, sizeof line, "%.*s", (int)strcspn(text, "\n"), text);
-    int fields = sscanf(line, "%4x %15s %63s %c", &value, s->name, file, &more);
+    int fields = sscanf(line, "%4x %15s %63s %c", &value, s->name, s->file, &more);
     if (fields < 2 || fields > 3 || strspn(line, "0123456789ABCDEF") != 4 || line[4] != ' ') {
         return false;
     }
@@ -97,10 +97,16 @@ bool symbols_value(const symbols *s, const char *name, uint16_t *value)
     return found;
 }
 
-const char *symbols_place(const symbols *s, uint16_t address, char text[SYMBOLS_PLACE])
+const symbol *symbols_label(const symbols *s, uint16_t address)
 {
     const symbol *label = s && address < ROM_SIZE ? s->label_at[address] : NULL;
-    if (!label || address - label->value > NEAR) {
+    return label && address - label->value <= NEAR ? label : NULL;
+}
+
+const char *symbols_place(const symbols *s, uint16_t address, char text[SYMBOLS_PLACE])
+{
+    const symbol *label = symbols_label(s, address);
+    if (!label) {
         snprintf(text, SYMBOLS_PLACE, "%04X", address);
     } else if (label->value == address) {
         snprintf(text, SYMBOLS_PLACE, "%s", label->name);

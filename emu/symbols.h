@@ -3,7 +3,7 @@
  *      VVVV NAME           an equate: a number, a character, an operation, a cell of RAM
  *      VVVV NAME file      a label of ROM, and the source file in which it stands
  *
- * NOT IMPLEMENTED: names of more than SYMBOLS_NAME characters.
+ * NOT IMPLEMENTED: names of more than SYMBOLS_NAME characters, files of more than SYMBOLS_FILE.
  */
 #ifndef SYMBOLS_H
 #define SYMBOLS_H
@@ -12,12 +12,13 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { SYMBOLS_NAME = 15 };
+enum { SYMBOLS_NAME = 15, SYMBOLS_FILE = 63 };
 
 typedef struct {
     uint16_t value;
     bool label;                     /* of ROM; else an equate */
     char name[SYMBOLS_NAME + 1];
+    char file[SYMBOLS_FILE + 1];    /* of a label: its source file in asm/, without .asm */
 } symbol;
 
 typedef struct {
@@ -33,6 +34,9 @@ void symbols_free(symbols *s);
 
 /* The value of a name, in any case. */
 bool symbols_value(const symbols *s, const char *name, uint16_t *value);
+
+/* The label at or in front of an address; NULL where there is none near it. */
+const symbol *symbols_label(const symbols *s, uint16_t address);
 
 /* An address as a label and a distance: `CALC1+2`; four hexadecimal digits where there is no label near it. `size` bytes
  * of `text` are enough when they are SYMBOLS_PLACE. */

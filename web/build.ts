@@ -231,10 +231,11 @@ function compare(found: string[], listed: string[]): void {
   if (odd.length) throw new Error(`web/src/catalogue.ts and examples/ differ: ${[...new Set(odd)].join(" ")}`);
 }
 
+const WASM = ["board.wasm", "walk.wasm", "inside.wasm"];
 const LESSONS = ["lessons.md", "lessons.zh.md"];
 
 /** The files inside the one file, in base64; with the pictures of the manuals. */
-const INSIDE = ["worker.js", "board.wasm", "walk.wasm", "skg.bin", "skg.sym", "parts.json", ...LESSONS, ...Object.keys(PAGES)];
+const INSIDE = ["worker.js", ...WASM, "skg.bin", "skg.sym", "parts.json", ...LESSONS, ...Object.keys(PAGES)];
 
 /** The whole page as one file, skg.html: it runs from a double click, too. */
 async function oneFile(): Promise<void> {
@@ -287,6 +288,8 @@ function notices(bundles: BuildResult[]): string {
       text: `\n${name} ${version}\n\n${readFileSync(join(folder, file), "utf8")}`,
     };
   });
+  // (inside.wasm: wasi-libc itself is in the public domain, its stdio is musl's)
+  parts.push({ row: "  musl, in wasi-libc: MIT", text: `\nmusl\n\n${readFileSync("release/notices/musl.txt", "utf8")}` });
   const rows = parts.map(({ row }) => row).join("\n");
   return `This page holds these works of others, under their licences:\n\n${rows}\n${parts.map(({ text }) => text).join("")}`;
 }
@@ -297,7 +300,7 @@ async function main(): Promise<void> {
   if (readFileSync("roms/skg.bin").length !== ROM_BYTES) throw new Error(`roms/skg.bin has not ${ROM_BYTES} bytes`);
   readNames(readFileSync("roms/skg.sym", "latin1")); // (says what is missing)
   for (const file of ["skg.bin", "skg.sym"]) copyFileSync(join("roms", file), join(OUT, file));
-  for (const wasm of ["board.wasm", "walk.wasm"]) copyFileSync(join("web/wasm", wasm), join(OUT, wasm));
+  for (const wasm of WASM) copyFileSync(join("web/wasm", wasm), join(OUT, wasm));
   for (const file of ["icon.svg", "manual.css", ...LESSONS]) copyFileSync(join("web/src", file), join(OUT, file));
   writeFileSync(join(OUT, "index.html"), withCard(readFileSync("web/src/index.html", "utf8"), CARD));
   writeFileSync(

@@ -1,4 +1,4 @@
-# The machine in a web page: web/dist. Needs node; the .wasm are committed, `make web-wasm` compiles them (clang and lld 14).
+# The machine in a web page: web/dist. Needs node; the .wasm are committed, `make web-wasm` compiles them (clang and lld 14, wasi-libc).
 WEB_BIN := web/node_modules/.bin
 
 web-modules: web/node_modules/.package-lock.json
@@ -27,7 +27,7 @@ web-serve: web
 	$(PYTHON) -m http.server --bind 127.0.0.1 --directory web/dist 8080
 
 # What the tests of the page want of Debian: who may install it gets it; without it these tests are skipped.
-WEB_TOOLS := clang-14 lld-14 chromium firefox-esr fonts-wqy-zenhei
+WEB_TOOLS := clang-14 lld-14 wasi-libc libclang-rt-14-dev-wasm32 chromium firefox-esr fonts-wqy-zenhei
 web-tools:
 	@dpkg -s $(WEB_TOOLS) >/dev/null 2>&1 || { [ "$$(id -u)" = 0 ] && apt-get update -q \
 		&& DEBIAN_FRONTEND=noninteractive apt-get install -qy --no-install-recommends $(WEB_TOOLS); } \

@@ -1,12 +1,10 @@
 /** The debugger of `skg80 --debug` in the page: where the board is in the ROM, its registers, the float stack, memory; step and
  * stop. Loaded when it is first wanted. */
 import type { Look } from "./board.ts";
-import { Calculator, general } from "./calculator.ts";
 import { make } from "./dom.ts";
+import { type Firmware, hex, type Line } from "./firmware.ts";
 import { t, type Word } from "./language.ts";
-import { instructions } from "./listing.ts";
 import type { Move } from "./stepper.ts";
-import { hex, Symbols } from "./symbols.ts";
 
 const LINES = 14;
 const OPERATIONS = 8;
@@ -31,8 +29,7 @@ const MOVES: readonly (readonly [Move, Word])[] = [
 ];
 
 export class Debugger {
-  readonly #symbols: Symbols;
-  readonly #calculator: Calculator;
+  readonly #firmware: Firmware;
   readonly #debug: (how: Move, stops: readonly number[]) => void;
   readonly #stops = new Set<number>();
   readonly #place = make("p", "place");
@@ -49,9 +46,8 @@ export class Debugger {
   #isHeld = false;
 
   /** Fills the box; `debug` tells the board what to do. */
-  constructor(box: HTMLElement, sym: string, debug: (how: Move, stops: readonly number[]) => void) {
-    this.#symbols = new Symbols(sym);
-    this.#calculator = new Calculator(this.#symbols);
+  constructor(box: HTMLElement, firmware: Firmware, debug: (how: Move, stops: readonly number[]) => void) {
+    this.#firmware = firmware;
     this.#debug = debug;
     const bar = make("div", "bar");
     for (const [how, word] of MOVES) bar.append(button(word, () => this.#move(how), how));
@@ -98,25 +94,22 @@ export class Debugger {
   say(): void {
     const look = this.#look;
     if (!look) return;
-    const { pc, memory, cycles } = look;
+    const { pc, bc, memory, cycles } = look;
+    this.#firmware.look(memory);
     // (who sets a stop by the keyboard stays where he is)
     const focused = (document.activeElement as HTMLElement | null)?.dataset["address"];
-    const file = this.#symbols.file(pc);
-    const words = [t(this.#isHeld ? "held" : "passes"), this.#symbols.place(pc), file ? `asm/${file}.asm` : ""];
+    const file = this.#firmware.file(pc);
+    const words = [t(this.#isHeld ? "held" : "passes"), this.#firmware.place(pc), file ? `asm/${file}.asm` : ""];
     this.#place.textContent = `${words.filter(Boolean).join(" · ")} · ${t("cycles", cycles)}`;
     this.#registers.replaceChildren(...registersOf(look));
-    const code = instructions(this.#symbols, this.#calculator, memory, pc, LINES).slice(0, LINES);
-    this.#code.replaceChildren(...code.map(({ address, text }) => this.#row(address, text, pc)));
+    const code = this.#firmware.listing(pc, LINES).slice(0, LINES);
+    this.#code.replaceChildren(...code.map((line) => this.#row(line, pc)));
     this.#calls.textContent = this.#callers(look).join(" ← ") || "–";
-    const floats = this.#calculator.stack(memory);
-    this.#floats.textContent = t("floats", floats?.map(general).join("  ") || "–");
-    const isAt = pc === this.#calculator.next;
+    this.#floats.textContent = t("floats", this.#firmware.floats().join("  ") || "–");
+    const isAt = pc === this.#firmware.value("CALC1");
     this.#operations.hidden = !isAt;
-    if (isAt) {
-      const { lines } = this.#calculator.listing(memory, look.bc, OPERATIONS);
-      this.#operations.replaceChildren(...lines.map(({ address, text }) => this.#row(address, text, look.bc)));
-    }
-    this.#named.replaceChildren(...this.#calculator.registers(memory).map(({ names, value }) => pair(names, general(value))));
+    if (isAt) this.#operations.replaceChildren(...this.#firmware.code(bc, OPERATIONS).map((line) => this.#row(line, bc)));
+    this.#named.replaceChildren(...this.#firmware.registers().map(({ names, value }) => pair(names, value)));
     this.#showMemory();
     this.#showStops();
     if (focused) this.#code.querySelector<HTMLElement>(`[data-address="${focused}"]`)?.focus();
@@ -146,7 +139,7 @@ export class Debugger {
     );
     form.addEventListener("submit", (event) => {
       event.preventDefault();
-      const address = this.#symbols.address(input.value);
+      const address = this.#firmware.address(input.value);
       input.setCustomValidity(address === undefined ? t("noPlace", input.value) : "");
       if (address === undefined) input.reportValidity();
       else use(address, input);
@@ -155,33 +148,33 @@ export class Debugger {
     return form;
   }
 
-  #row(address: number, text: string, present: number): HTMLElement {
+  #row({ address, place, text }: Line, present: number): HTMLElement {
     const row = make("li", address === present ? "present" : "");
     const mark = button("stopHere", () => this.#toggle(address));
     mark.removeAttribute("data-t");
     mark.dataset["address"] = hex(address);
     mark.ariaPressed = String(this.#stops.has(address));
-    mark.ariaLabel = t("stopHere", this.#symbols.place(address));
+    mark.ariaLabel = t("stopHere", place || hex(address));
     mark.textContent = "●";
-    row.append(mark, make("span", "number", hex(address)), make("b", "", this.#symbols.place(address)), make("span", "", text));
+    row.append(mark, make("span", "number", hex(address)), make("b", "", place), make("span", "", text));
     return row;
   }
 
   /** Routines whose return addresses stand on the processor's stack; what stands there may be data, too. */
   #callers({ sp, memory }: Look): string[] {
-    const top = this.#symbols.value("STKTOP") ?? sp;
+    const top = this.#firmware.value("STKTOP") ?? sp;
     const places: string[] = [];
     for (let at = sp; at + 1 < top && places.length < CALLS; at += 2) {
       const word = (memory[at] ?? 0) | ((memory[at + 1] ?? 0) << 8);
       // (behind a CALL, or a restart)
       const isBehindCall = [0xcd, 0xc4, 0xcc, 0xd4, 0xdc, 0xe4, 0xec, 0xf4, 0xfc].includes(memory[word - 3] ?? 0);
-      if (this.#symbols.file(word) && isBehindCall) places.push(this.#symbols.place(word));
+      if (this.#firmware.file(word) && isBehindCall) places.push(this.#firmware.place(word));
     }
     return places;
   }
 
   #showMemory(): void {
-    const from = this.#symbols.address(this.#address.value);
+    const from = this.#firmware.address(this.#address.value);
     const { memory } = this.#look ?? {};
     if (from === undefined || !memory) return;
     const rows = Array.from({ length: ROWS }, (_, row) => {
@@ -200,8 +193,8 @@ export class Debugger {
         const bin = button("deleteWork", () => this.#toggle(address));
         bin.removeAttribute("data-t");
         bin.textContent = "✕";
-        bin.ariaLabel = t("deleteWork", this.#symbols.place(address));
-        row.append(`${hex(address)} ${this.#symbols.place(address)} `, bin);
+        bin.ariaLabel = t("deleteWork", this.#firmware.place(address));
+        row.append(`${hex(address)} ${this.#firmware.place(address)} `, bin);
         return row;
       }),
     );

@@ -4,7 +4,7 @@ import type { Debugger } from "./debugger.ts";
 import { get } from "./dom.ts";
 import { say } from "./message.ts";
 import { openPane } from "./pane.ts";
-import { readSymbols } from "./pieces.ts";
+import { readModule, readSymbols } from "./pieces.ts";
 import type { Session } from "./session.ts";
 
 export class Inside {
@@ -13,8 +13,15 @@ export class Inside {
   async open(session: Session): Promise<void> {
     if (!this.#debugger) {
       try {
-        const [{ Debugger }, sym] = await Promise.all([import("./debugger.ts"), readSymbols()]);
-        this.#debugger = new Debugger(get("inside"), sym, (how, stops) => session.debug(how, stops));
+        const [{ Debugger }, { Firmware }, module, sym] = await Promise.all([
+          import("./debugger.ts"),
+          import("./firmware.ts"),
+          readModule("inside.wasm"),
+          readSymbols(),
+        ]);
+        this.#debugger = new Debugger(get("inside"), await Firmware.create(module, sym), (how, stops) =>
+          session.debug(how, stops),
+        );
       } catch {
         say("noDebugger");
         return;

@@ -10,7 +10,7 @@ import { say, warn } from "./message.ts";
 import { Opening } from "./opening.ts";
 import { closePane } from "./pane.ts";
 import { showParts } from "./parts.ts";
-import { readImages, readPartList, readWalk, workerAddress } from "./pieces.ts";
+import { readImages, readModule, readPartList, workerAddress } from "./pieces.ts";
 import { rove } from "./roving.ts";
 import { Session } from "./session.ts";
 import { SettingsMenu, sound } from "./settings.ts";
@@ -162,7 +162,7 @@ async function begin(): Promise<void> {
     full.hidden = false;
     full.href = location.href.replace(/&embed\b/, "");
   }
-  const walking = readWalk().then(
+  const walking = readModule("walk.wasm").then(
     (module) => bench.stage.pictures.startWalk(module),
     (error: unknown) => say("noWalk", String(error)),
   );

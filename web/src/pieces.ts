@@ -53,7 +53,8 @@ export async function readPartList(): Promise<Part[]> {
   return text === undefined ? readParts() : (JSON.parse(text) as Part[]);
 }
 
-export async function readWalk(): Promise<WebAssembly.Module> {
-  const code = inside("walk.wasm") ?? (await (await fetch("walk.wasm")).arrayBuffer());
+/** One of the .wasm beside the page. */
+export async function readModule(name: "walk.wasm" | "inside.wasm"): Promise<WebAssembly.Module> {
+  const code = inside(name) ?? (await (await fetch(name)).arrayBuffer());
   return WebAssembly.compile(code);
 }

@@ -2,13 +2,11 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { Board, bytesOf, readNames } from "../src/board.ts";
-import { Calculator, general } from "../src/calculator.ts";
-import { instructions } from "../src/listing.ts";
-import { hex, Symbols } from "../src/symbols.ts";
+import { Firmware, hex } from "../src/firmware.ts";
 
 const SYM = readFileSync("roms/skg.sym", "latin1");
-const symbols = new Symbols(SYM);
-const calculator = new Calculator(symbols);
+const MODULE = new WebAssembly.Module(readFileSync("web/wasm/inside.wasm"));
+const firmware = await Firmware.create(MODULE, SYM);
 
 /** The output of `skg80 --debug` (tests/web/test_page.py). */
 interface Said {
@@ -31,7 +29,7 @@ async function booted(): Promise<Board> {
 async function stopped(stop: string): Promise<Board> {
   const board = await booted();
   board.tape(readFileSync("examples/wrench.skg"));
-  assert.ok(board.stopAt(symbols.address(stop) ?? -1, true));
+  assert.ok(board.stopAt(firmware.address(stop) ?? -1, true));
   board.type(bytesOf("LOAD\rRUN\r"));
   for (let slices = 0, times = 0; slices < 2000; slices++) {
     if (board.run(1_000_000) !== "break") continue;
@@ -44,22 +42,31 @@ async function stopped(stop: string): Promise<Board> {
 test("all of the ROM, the float stack and the registers as skg80's debugger prints them", async () => {
   for (const { stop, floats, registers, listings } of SAID) {
     const { memory, pc, bc } = (await stopped(stop)).look();
-    assert.equal(symbols.place(pc === calculator.next ? bc : pc), stop);
-    assert.equal(calculator.stack(memory)?.map(general).join(" "), floats, stop);
+    firmware.look(memory);
+    assert.equal(firmware.place(pc === firmware.value("CALC1") ? bc : pc), stop);
+    assert.equal(firmware.floats().join(" "), floats, stop);
     assert.deepEqual(
-      calculator.registers(memory).map(({ number, names, value }) => `M${number} ${names} ${general(value)}`),
+      firmware.registers().map(({ number, names, value }) => `${number} ${names} ${value}`),
       registers.map((line) => line.trim().replace(/ +/g, " ")),
       stop,
     );
     assert.equal(listings.length, 8192);
     for (const [from, text] of listings.entries()) {
-      const lines = instructions(symbols, calculator, memory, from, 1).map(({ address, text }) => {
-        const place = text.startsWith("DB ") ? "" : symbols.place(address);
-        return `${hex(address)} ${place.padEnd(10)} ${text}\n`;
-      });
+      const lines = firmware.listing(from, 1).map(({ address, place, text }) => `${hex(address)} ${place.padEnd(10)} ${text}\n`);
       assert.equal(lines.join(""), text, hex(from));
     }
   }
+});
+
+test("names, addresses and source files", async () => {
+  assert.equal(firmware.address("calc1+2"), (firmware.value("CALC1") ?? 0) + 2);
+  assert.equal(firmware.place((firmware.value("CALC1") ?? 0) + 2), "CALC1+2");
+  assert.equal(firmware.file(firmware.value("CALC1") ?? 0), "calc");
+  assert.equal(firmware.address("1FFF"), 0x1fff);
+  assert.equal(firmware.file(0xc000), "");
+  for (const none of ["", "NOWHERE", "CALC1+", "12345", "CALC1+1X"]) assert.equal(firmware.address(none), undefined, none);
+  await assert.rejects(Firmware.create(MODULE, "not a symbol file"), /skg\.sym:1/);
+  await assert.rejects(Firmware.create(MODULE, "0000 NAME float\n"), /CALC1/);
 });
 
 test("a part is the same, byte for byte, when the board is stopped a thousand times on the way", async () => {
