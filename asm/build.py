@@ -38,6 +38,8 @@ LEAST_JUMPS = 50
 LEAST_RETURNS = 25
 #: Likewise of facts in the sources.
 LEAST_FACTS = 25
+#: Node, as asm80 is soonest done: with its lines in memory at once.
+NODE = ("node", "--max-semi-space-size=64", "--require", str(ASM / "operands.js"))
 #: Words that an assembler has for itself, so that no label or equate may be called so: each keyword of z88dk's
 #: z80asm, release 2.4 and August 2026, of which `-m8080_strict` refuses the definition or a use (MB is one of the
 #: later only). The registers and PSW are asm80's words too.
@@ -191,11 +193,11 @@ def assemble(texts: dict[str, str], work: Path) -> tuple[bytes, dict[str, int], 
             fail(f"{z88dk} made no listing, top.lis or top.lst")
         listing = z88dk_listing(listings[0].read_text(), (work / "top.bin").read_bytes())
     else:
-        asm80 = ASM / "node_modules" / ".bin" / "asm80"
+        asm80 = ASM / "node_modules" / "asm80" / "asm80.js"
         if not asm80.exists():
             fail("no assembler: neither z88dk's z80asm on the PATH nor asm80 in asm/node_modules (make asm80)")
         (work / "top.asm").write_text(top_file([*texts], "        .include {}"))
-        run([str(asm80), "-m", "I8080", "-t", "bin", "top.asm"], work)
+        run([*NODE, str(asm80), "-m", "I8080", "-t", "bin", "top.asm"], work)
         listing = (work / "top.lst").read_text()
         pattern = re.compile(r"^([A-Z_]\w*):\s+([0-9A-F]{4}) DEFINED", re.M)
         symbols = {name: int(value, 16) for name, value in pattern.findall(listing)}
