@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 import shapely
@@ -12,9 +13,11 @@ from shapely.geometry import Polygon
 from toolhelp import Run
 
 from skg.errors import UserError
+from skg.geometry.offset import wire_way
 from skg.job.file import decoded, encoded
 from skg.job.job import Job
 from skg.job.wanted import Partial
+from skg.pipeline import pairing
 
 #: A profile with a corner of each kind.
 PROFILE = [(0, 0), (40, 0), (40, 12), (25, 12), (25, 20), (0, 20)]
@@ -45,21 +48,25 @@ def both(run: Run, path: Path, *words: str) -> dict[str, tuple[list[Polygon], di
     return result
 
 
-@pytest.mark.parametrize("taker, sizes", [("punch", (-0.02, 0.0)), ("die", (0.0, 0.02))])
-def test_what_is_between_them(run: Run, tmp_path: Path, taker: str, sizes: tuple[float, float]) -> None:
+@pytest.mark.parametrize("clearance", [0.02, 0.12, 0.5])
+@pytest.mark.parametrize("taker", ["punch", "die"])
+def test_what_is_between_them(run: Run, tmp_path: Path, taker: str, clearance: float) -> None:
     """The punch, as the wire leaves it, is so much smaller than what the die has left out, all around; who takes it is
-    smaller or larger, the other one is to size. The hole is the punch's."""
-    made = both(run, profile(tmp_path), "--offset", "0.12", "--clearance", "0.02", "--clearance-on", taker)
+    smaller or larger, the other one is to size. The hole is the punch's. So it is with more than the wire's 0.12 mm."""
+    sizes = (-clearance, 0.0) if taker == "punch" else (0.0, clearance)
+    made = both(run, profile(tmp_path), "--offset", "0.12", "--clearance", str(clearance), "--clearance-on", taker)
     (hole, around), report = made["punch"]
     (within,), other = made["die"]
     assert hole.area == pytest.approx(3.14159 * 3.88**2, rel=0.01) and hole.within(around)
+    parts = []
     # (the wire leaves the punch by 0.12 mm, and takes as much of the die)
-    punch = around.buffer(-0.12, join_style="mitre")
-    die = within.buffer(0.12, join_style="mitre")
-    for part, size in ((punch, sizes[0]), (die, sizes[1])):
-        wanted = Polygon(PROFILE).buffer(size, join_style="mitre")
+    for way, size, sign in ((around, sizes[0], -1), (within, sizes[1], 1)):
+        # (what is made larger or smaller by more than the wire's distance has arcs around corners)
+        join: Any = {"join_style": "round" if abs(size) >= 0.12 else "mitre", "quad_segs": 64}
+        part, wanted = way.buffer(sign * 0.12, **join), Polygon(PROFILE).buffer(size, **join)
         assert part.exterior.hausdorff_distance(wanted.exterior) < 0.003
-    assert punch.exterior.distance(die.exterior) == pytest.approx(0.02, abs=0.003)
+        parts.append(part)
+    assert parts[0].exterior.distance(parts[1].exterior) == pytest.approx(clearance, abs=0.003)
     codes = [[finding["code"] for finding in each["findings"]] for each in (report, other)]
     assert codes[0][0] == "pair-punch" and codes[1][0] == "pair-die"
     assert not {"side-of-openings", "side-of-outlines", "no-part-has-tab"} & {*codes[0], *codes[1]}
@@ -85,14 +92,11 @@ def test_both_or_none(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
     path, words = profile(tmp_path), ["--offset", "0.1", "--clearance", "0.02"]
     tapes = [tmp_path / f"tool-{member}.3b" for member in ("punch", "die")]
     before = {each.name for each in tmp_path.iterdir()}
-    for more, code, source in (
-        (["--clearance-on", "punch", "--clearance", "0.1"], "clearance-too-large", "member-punch"),
-        (["--start", "-5,5", "--start", "30,11.95"], "hole-near-inside", "member-die"),
-    ):
-        with pytest.raises(UserError) as failed:
-            run("cut", path, "-o", tmp_path / "tool.3b", *words, *more, "--program", tmp_path / "tool.skg")
-        finding = failed.value.finding
-        assert finding.code == code and finding.source[0].code == source
+    with pytest.raises(UserError) as failed:
+        starts = ["--start", "-5,5", "--start", "30,11.95"]
+        run("cut", path, "-o", tmp_path / "tool.3b", *words, *starts, "--program", tmp_path / "tool.skg")
+    finding = failed.value.finding
+    assert finding.code == "hole-near-inside" and finding.source[0].code == "member-die"
     with pytest.raises(UserError) as failed:
         run("cut", path, *words)
     assert failed.value.finding.code == "pair-on-stdout"
@@ -106,14 +110,40 @@ def test_both_or_none(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
     assert short.exit_code == 0 and (tmp_path / "TOOL-P.3b").exists() and (tmp_path / "TOOL-D.3b").exists()
 
 
-def test_one_contour_of_many(run: Run, tmp_path: Path) -> None:
+@pytest.mark.parametrize("clearance", ["0.02", "0.3"])
+def test_one_contour_of_many(run: Run, tmp_path: Path, clearance: str) -> None:
     """Copies, mirrored and turned: each punch is beside its die's size."""
-    words = ["--offset", "0.1", "--clearance", "0.02", "--mirror", "x", "--turn", "90"]
+    words = ["--offset", "0.1", "--clearance", clearance, "--mirror", "x", "--turn", "90"]
     made = both(run, profile(tmp_path), *words, "--columns", "2", "--step", "45,0")
     for member, count in (("punch", 4), ("die", 2)):
         assert len(made[member][0]) == count
     areas = sorted(shapely.area(way) for way in made["die"][0])
     assert areas[0] == pytest.approx(areas[1], rel=1e-4)
+
+
+@pytest.mark.parametrize("member", ["punch", "die"])
+def test_a_size_that_is_not_whole_is_refused(run: Run, tmp_path: Path, member: str) -> None:
+    """A slot that is narrower at its bottom: a die that is larger would close it there; and a punch that is smaller
+    would lose the narrow end."""
+    page, sign = drawing(), 1 if member == "die" else -1
+    polygon(
+        [(0, 0), (40, 0), (40, 20), (20.5, 20), (20.2, 20 - sign * 10), (19.8, 20 - sign * 10), (19.5, 20), (0, 20)],
+        page,
+    )
+    words = ["--offset", "0.1", "--clearance", "0.35", "--clearance-on", member]
+    with pytest.raises(UserError) as failed:
+        run("cut", saved(page, tmp_path), "-o", tmp_path / "tool.3b", *words)
+    finding = failed.value.finding
+    assert finding.code == "clearance-too-large" and finding.source[0].code == f"member-{member}"
+    assert finding.place == pytest.approx((20, 20 - sign * 10)) and not list(tmp_path.glob("*.3b"))
+
+
+def test_another_size_is_refused(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A punch that is 5 µm off what it is to be: shapely has the size out of the drawing."""
+    monkeypatch.setattr(pairing, "wire_way", lambda contour, r: wire_way(contour, r + 0.005))
+    with pytest.raises(UserError) as failed:
+        run("cut", profile(tmp_path), "-o", tmp_path / "tool.3b", "--offset", "0.1", "--clearance", "0.3")
+    assert failed.value.finding.code == "off-the-file" and not list(tmp_path.glob("*.3b"))
 
 
 def test_what_falls_and_what_the_control_must_know(run: Run, tmp_path: Path) -> None:

@@ -7,11 +7,14 @@ from the other than `NEAR` lies within a place that the report names.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from math import pi
 from typing import NamedTuple
 
 import numpy as np
+import shapely
 
 from skg.geometry.arrays import Flags, Floats
+from skg.geometry.chords import MEASURED, chords_of
 from skg.geometry.contour import Contour, Edge
 from skg.geometry.pieces import Pieces
 from skg.geometry.plane import XY
@@ -61,6 +64,29 @@ def off_drawn(
         if far[worst] > off:
             off, place = float(far[worst]), (float(places[worst, 0]), float(places[worst, 1]))
     return OffDrawn(off, place)
+
+
+def off_size(contour: Contour, drawn: Contour, size: float) -> OffDrawn:
+    """Compare a closed contour with the drawn one that shapely makes larger by a size on each side, mm; smaller:
+    negative."""
+    quarter = chords_of(abs(size), pi / 2, MEASURED)
+    ring = shapely.buffer(shapely.Polygon(_ring(drawn)), size, quad_segs=quarter)
+    cut = shapely.Polygon(_ring(contour))
+    off, place = 0.0, contour.edges[0].start
+    for one, other in ((cut, ring), (ring, cut)):
+        places = shapely.points(shapely.get_coordinates(one))
+        far = shapely.distance(places, other.boundary)
+        if len(far) and far.max() > off:
+            off, place = float(far.max()), tuple(shapely.get_coordinates(places[far.argmax()])[0].tolist())
+    return OffDrawn(off, place)
+
+
+def _ring(contour: Contour) -> list[XY]:
+    """Places along a contour, the last one the first; chords between them leave it by no more than is measured."""
+    chords = (
+        edge.points() if edge.is_line or edge.nodes else edge.parted(edge.chords(MEASURED)) for edge in contour.edges
+    )
+    return [place for places in chords for place in places]
 
 
 def _form(edge: Edge) -> tuple:

@@ -6,7 +6,11 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
+import shapely
+
 from skg.errors import UserError
+from skg.geometry.contour import Contour
+from skg.geometry.offset import NoRoom, wire_way
 from skg.geometry.plane import XY
 from skg.job.wanted import Wanted
 from skg.messages.finding import Finding, Phrase
@@ -20,6 +24,9 @@ _MEANT = {
     PUNCH: {"side-of-openings", "side-of-outlines", "no-slug-has-tab"},
     DIE: {"side-of-openings", "side-of-outlines", "no-part-has-tab"},
 }
+
+#: An edge is no further from that beside it than this many times the difference in size: a rounded corner may be gone.
+_BESIDE = 1.5
 
 
 def named(member: str) -> Phrase:
@@ -74,6 +81,43 @@ def pair_wanted(wanted: Sequence[Wanted], nesting: Nesting, member: str) -> list
     return result
 
 
+def sized(wanted: Sequence[Wanted], nesting: Nesting, member: str) -> dict[int, Contour]:
+    """The contours, by their numbers, that one of both has in a size of its own: those with a clearance that is no
+    smaller than the wire's distance, with which the wire would be on the other side of what is drawn. A contour that is
+    not whole in that size is a `UserError`."""
+    result = {}
+    for number in sorted(_mates(wanted, nesting)[0]):
+        want, contour = wanted[number], nesting.contours[number]
+        size = growth(want, member)
+        if abs(size) < want.offset or not size:
+            continue
+        lost: XY | None
+        try:
+            made = replace(contour, edges=wire_way(contour, size if contour.area > 0 else -size))
+            lost = _lost(contour, made, abs(size))
+        except NoRoom as why:
+            lost = why.place
+        if lost:
+            raise UserError(Finding("clearance-too-large", clearance=want.clearance, contour=number, place=lost))
+        result[number] = made
+    return result
+
+
+def _lost(drawn: Contour, made: Contour, size: float) -> XY | None:
+    """The middle of a drawn edge that has nothing beside it in a contour of another size: a slot has closed, or what
+    was between two edges is gone; None: there is none."""
+    places = [edge.at(0.5) for edge in drawn.edges]
+    far = shapely.distance(shapely.points(places), shapely.LineString(made.points()))
+    return places[int(far.argmax())] if far.max() > _BESIDE * size else None
+
+
+def growth(want: Wanted, member: str) -> float:
+    """How much larger than drawn one of both is on each side, mm; smaller: negative."""
+    if want.clearance_on != member:
+        return 0.0
+    return -(want.clearance or 0.0) if member == PUNCH else want.clearance or 0.0
+
+
 def pair_starts(starts: Sequence[XY], wanted: Sequence[Wanted], nesting: Nesting, member: str) -> list[XY]:
     """The start holes of one of both. Those in a contour of the pair are the die's, those in what lies in it the
     punch's; so are those beside it, but in openings of a plate that it lies in, and outside of this."""
@@ -119,13 +163,9 @@ def _mates(wanted: Sequence[Wanted], nesting: Nesting) -> tuple[set[int], list[l
 
 def _mated(number: int, want: Wanted, nesting: Nesting, member: str) -> Wanted:
     """Wishes for a contour that both share."""
-    contour = nesting.contours[number]
-    offset = want.offset
-    if want.clearance and want.clearance_on == member:
-        if want.clearance >= offset:
-            sizes = {"clearance": want.clearance, "offset": offset}
-            raise UserError(Finding("clearance-too-large", contour=number, place=contour.edges[0].start, **sizes))
-        offset -= want.clearance
+    # (a smaller one brings the wire nearer; for the others there is a contour of that size)
+    takes = want.clearance if want.clearance_on == member else None
+    offset = want.offset - takes if takes and takes < want.offset else want.offset
     start = want.start
     if start is not None and (number in nesting.holding.around([start])[0]) != (member == DIE):
         start = None

@@ -120,7 +120,7 @@ def _value(name: str, value: Any, placement: Placement) -> Any:  # noqa: ANN401
 
 
 @contextmanager
-def told_as_drawn(placement: Placement, *source: str) -> Iterator[None]:
+def told_as_drawn(placement: Placement, *source: str | Phrase) -> Iterator[None]:
     """Give what is refused within the places of the drawing, and where it comes from."""
     try:
         yield

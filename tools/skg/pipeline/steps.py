@@ -9,13 +9,14 @@ The command line and the page make a `Job` and call these.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from hashlib import sha256
 from typing import Any
 
 from skg.checking.as_drawn import as_drawn
-from skg.checking.check_drawn import NEAR, Named, off_drawn
+from skg.checking.check_drawn import NEAR, Named, off_drawn, off_size
 from skg.cutting.cost import Cost
 from skg.cutting.ladder import CutResult, Skipped, make
 from skg.cutting.progress import Progress, in_silence
@@ -46,6 +47,7 @@ class DrawnJob:
     """A job's drawing, read, with what lies in what, and where the contours that the job has settings for are.
 
     `name`: what messages call it. `member`: which of a pair is cut of it, see `skg.pipeline.pairing`; "": the part.
+    `sized`: the contours, by their numbers, that this one has in a size of its own.
     """
 
     name: str
@@ -55,6 +57,7 @@ class DrawnJob:
     known: Known
     matches: Matches
     member: str = ""
+    sized: Mapping[int, Contour] = field(default_factory=dict)
     #: The nesting as it lies on the machine, where that was asked for last.
     _placed: dict[tuple, Nesting] = field(default_factory=dict, compare=False)
 
@@ -73,6 +76,14 @@ class DrawnJob:
     def sha256(self) -> str:
         """The sum of the file's bytes."""
         return sha256(self.data).hexdigest()
+
+    @cached_property
+    def cut_nesting(self) -> Nesting:
+        """The contours as they are cut, where they are drawn: what lies in what is as it is drawn."""
+        if not self.sized:
+            return self.nesting
+        contours = [self.sized.get(number, contour) for number, contour in enumerate(self.contours)]
+        return Nesting(contours, self.nesting.depths, self.nesting.around)
 
     def chosen(self, job: Job) -> dict[int, Chosen]:
         """The job's wishes by the numbers of contours; places are where the drawing is now."""
@@ -101,14 +112,15 @@ class DrawnJob:
 
     def _cut(self, job: Job) -> list[Contour]:
         """The contours that are cut."""
-        return [contour for contour, want in zip(self.contours, wanted_of(job, self), strict=True) if want.cut]
+        contours = self.cut_nesting.contours
+        return [contour for contour, want in zip(contours, wanted_of(job, self), strict=True) if want.cut]
 
     def placed(self, job: Job) -> Nesting:
         """The contours on the machine; a `UserError` where they, or their copies, are too far away, or
         these too near to each other."""
         placement, pattern = self.placement(job), self.pattern(job)
         if placement.is_nothing and not pattern:
-            return self.nesting
+            return self.cut_nesting
         wanted = [want for want in wanted_of(job, self) if want.cut]
         reach = max((2 * (want.lead + want.widest) for want in wanted), default=0.0)
         kerf = 2 * max((want.widest for want in wanted), default=0.0)
@@ -119,7 +131,7 @@ class DrawnJob:
                 with placing.told_as_drawn(placement):
                     cut = [placement.contour(contour) for contour in self._cut(job)]
                     refuse_near(pattern, cut, kerf, job.machine.into == "cut")
-            self._placed[key] = placing.placed_nesting(self.nesting, placement, pattern, reach)
+            self._placed[key] = placing.placed_nesting(self.cut_nesting, placement, pattern, reach)
         return self._placed[key]
 
 
@@ -173,7 +185,19 @@ def wanted_of(job: Job, drawn: DrawnJob) -> list[Wanted]:
 def members_of(job: Job, drawn: DrawnJob) -> list[DrawnJob]:
     """The drawing as the part, or once as the punch and once as the die."""
     with placing.told_as_drawn(Placement(), *drawn.source):
-        return [replace(drawn, member=member) for member in pairing.members(wanted_of(job, drawn), drawn.nesting)]
+        wanted = wanted_of(job, drawn)
+        members = pairing.members(wanted, drawn.nesting)
+    return [_member(member, wanted, drawn) for member in members] if any(members) else [drawn]
+
+
+def _member(member: str, wanted: list[Wanted], drawn: DrawnJob) -> DrawnJob:
+    """The drawing as one of a pair. `wanted`: wishes for the part."""
+    try:
+        with placing.told_as_drawn(Placement(), *drawn.source):
+            sized = pairing.sized(wanted, drawn.nesting, member)
+    except UserError as error:
+        raise error.within(pairing.named(member)) from None
+    return replace(drawn, member=member, sized=sized, _placed={})
 
 
 def plan_drawing(job: Job, drawn: DrawnJob) -> list[PlannedContour]:
@@ -270,11 +294,23 @@ def _beside_file(result: CutResult, job: Job, drawn: DrawnJob, account: Account,
     for route in result.routes[:count]:
         trims = (*route.remarks.loops, *route.remarks.whiskers)
         named += [Named(placement.back.place(trim.place), trim.length / scale) for trim in trims]
+    wanted = wanted_of(job, replace(drawn, member="")) if drawn.sized else []
+    sizes = {number: pairing.growth(wanted[number], drawn.member) for number in drawn.sized}
     worst = 0.0
     for number in range(copies.count):
         contours = [route.contour for route in result.routes[number * count : (number + 1) * count]]
         contours = as_drawn(contours, job.place, placement.origin, copies, number)
-        off, place = off_drawn(contours, drawn.reading.nominal, account.whole, named)
+        numbers = [route.number for route in result.routes[number * count : (number + 1) * count]]
+        offs = [
+            off_size(contour, drawn.contours[own], sizes[own])
+            for contour, own in zip(contours, numbers, strict=True)
+            if own in sizes
+        ]
+        contours = [
+            drawn.contours[own] if own in sizes else contour for contour, own in zip(contours, numbers, strict=True)
+        ]
+        offs.append(off_drawn(contours, drawn.reading.nominal, account.whole, named))
+        off, place = max(offs)
         if off > NEAR:
             raise UserError(Finding("off-the-file", place=place, off=1000 * off).within(*drawn.source))
         worst = max(worst, off)
