@@ -18,9 +18,13 @@ export type Found =
 const MOST_PROGRAM = 64 * 1024;
 /** A tape of some 150,000 blocks: so many are opened, drawn and walked through without a halt. */
 const MOST = 2 * 1024 * 1024;
+/** Everything as one file: such a tape, and all programs that a browser keeps. */
+const MOST_SAVED = 8 * MOST;
 
-export const tooLarge = (name: string, size: number): Found | undefined =>
-  size > MOST ? { kind: "refused", why: "badLarge", values: [name, MOST / 1024] } : undefined;
+export function tooLarge(name: string, size: number): Found | undefined {
+  const most = /\.json$/i.test(name) ? MOST_SAVED : MOST;
+  return size > most ? { kind: "refused", why: "badLarge", values: [name, most / 1024] } : undefined;
+}
 
 export function recognize(name: string, bytes: Uint8Array): Found {
   const refuse = (why: Word, ...values: (string | number)[]): Found => ({ kind: "refused", why, values: [name, ...values] });

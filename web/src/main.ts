@@ -83,7 +83,7 @@ const session = new Session(workerAddress(), teletype, isEmbedded ? undefined : 
 bench.session = session;
 const menu = new SettingsMenu(settings, bench, teletype, (changed) => (store.settings = changed));
 const course = new Course(bench);
-const opening = new Opening(bench, works, course, (changed) => menu.apply(changed));
+const opening = new Opening(bench, works, course, (changed) => menu.change(changed));
 rove(get("shelf"));
 bind(bench, teletype, opening, settings, works);
 for (const button of document.querySelectorAll(".pane .close")) button.addEventListener("click", closePane);
@@ -154,7 +154,7 @@ async function begin(): Promise<void> {
   if (!session.start(settings.speed, last, readImages())) warn(t("badKept"));
   if (last?.draft !== undefined) bench.editor.text = last.draft;
   const tape = last && store.tape;
-  if (last?.about?.work) works.goOn(last.about.work);
+  if (last?.about) works.goOn(last.about.work, last.program);
   bench.origin = last?.about?.origin;
   if (tape) bench.stage.show(tape);
   if (isEmbedded) {

@@ -3,6 +3,7 @@ import { changeOf } from "./catalogue.ts";
 import type { Course } from "./course.ts";
 import { get } from "./dom.ts";
 import { readWhole, recognize, tooLarge } from "./files.ts";
+import { nameFor } from "./identity.ts";
 import { t } from "./language.ts";
 import { type Link, LinkError, readLink } from "./link.ts";
 import { say, show } from "./message.ts";
@@ -110,14 +111,14 @@ export class Opening {
       return;
     }
     const { stage } = this.#bench;
-    stage.open(read, name.replace(/\.\w+$/, ""));
+    stage.open(read, { name: name.replace(/\.\w+$/, ""), program: undefined });
     const said = t(read.isForeign ? "tapeForeign" : "tapeRead", name, stage.recording.layout.blocks.length);
     show(said + (read.isWhole ? "" : t("tapeNoEnd")));
   }
 
   /** A page that was saved: its machine, its text, its settings, its tape. */
-  async #saved({ kept, settings, tape, how, from, works }: Everything): Promise<void> {
-    const { editor, session } = this.#bench;
+  async #saved({ kept, settings, tape, made, lines, how, from, works }: Everything): Promise<void> {
+    const { editor, session, stage } = this.#bench;
     this.#apply(settings);
     this.#works.add(works ?? []);
     if (kept) {
@@ -127,8 +128,14 @@ export class Opening {
       if (kept.draft !== undefined) editor.text = kept.draft;
       this.#bench.origin = kept.about?.origin;
     }
+    if (made && lines) {
+      stage.show({ made, lines, ...(how ? { how } : {}), ...(from ? { from } : {}) });
+      return;
+    }
     const read = tape ? await readWhole("saved", tape) : undefined;
     if (!read || "why" in read) return;
-    this.#bench.stage.open(read, this.#bench.name, how, from);
+    // (files of before have no name of their tape: it was called after the program)
+    const { name } = nameFor(kept?.program ?? "", undefined, kept?.about?.origin);
+    stage.open(read, made ?? { name, program: undefined }, how, from);
   }
 }

@@ -100,7 +100,8 @@ export class Recording {
   /** The tape as it is kept for the next visit: its lines with their places. A long one, or a file's, is not. */
   get kept(): KeptTape | null {
     const { made, how, from } = this;
-    return made.program !== undefined && this.#lines.length <= MOST_KEPT ? { made, lines: this.#lines, how, from } : null;
+    const { length } = this.#lines;
+    return made.program !== undefined && length && length <= MOST_KEPT ? { made, lines: this.#lines, how, from } : null;
   }
 
   /** Skips what the board still punches until its next prompt: it is no part of the next tape. */
@@ -180,8 +181,8 @@ export class Recording {
   }
 
   /** Shows a tape that comes from a file. */
-  open({ items, placer, written, isWhole }: Opened, name: string, how: How = "run", from = 0): void {
-    this.clear({ name, program: undefined });
+  open({ items, placer, written, isWhole }: Opened, made: Maker, how: How = "run", from = 0): void {
+    this.clear(made);
     this.how = how;
     this.from = from;
     this.#placer = placer;

@@ -12,8 +12,10 @@ import type { Workbench } from "./workbench.ts";
 import type { Work, Works } from "./works.ts";
 
 export function everything({ session, stage: { recording } }: Workbench, settings: Settings, works: Work[]): Everything {
-  const { text, how, from } = recording;
-  return { format: "skg-page", version: 1, kept: session.kept, settings: { ...settings }, tape: text, how, from, works };
+  const { text, how, from, made, kept } = recording;
+  const lines = kept ? { lines: kept.lines } : {};
+  const tape = { tape: text, made, ...lines, how, from };
+  return { format: "skg-page", version: 1, kept: session.kept, settings: { ...settings }, ...tape, works };
 }
 
 /** Saves one kind of file. A tape that one RUN of the program that is seen has not made, from its first line to its end, is asked

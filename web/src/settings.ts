@@ -30,22 +30,27 @@ export class SettingsMenu {
   /** Called with what is to be heard: anything, and the machine at its own speed. */
   onSound: (isOn: boolean, isReal: boolean) => void = () => undefined;
 
+  readonly #keep: (changed: Partial<Settings>) => void;
+
   constructor(settings: Settings, bench: Workbench, teletype: Teletype, keep: (changed: Partial<Settings>) => void) {
     this.settings = settings;
     this.#bench = bench;
     this.#teletype = teletype;
-    const change = (changed: Partial<Settings>): void => {
-      this.apply(changed);
-      keep(sound(changed));
-    };
+    this.#keep = keep;
     const on = (id: string, read: (element: HTMLInputElement) => Partial<Settings>): void =>
-      get(id).addEventListener("change", () => change(read(get<HTMLInputElement>(id))));
+      get(id).addEventListener("change", () => this.change(read(get<HTMLInputElement>(id))));
     on("speed", ({ value }) => ({ speed: value as Settings["speed"] }));
     on("language", ({ value }) => ({ language: value }));
     on("theme", ({ value }) => ({ theme: value as Theme }));
     on("wire", ({ valueAsNumber }) => ({ wire: valueAsNumber || 0 }));
     for (const name of CHOICES) on(name, ({ checked }) => ({ [name]: checked }));
     onSystemTheme(() => this.#paint());
+  }
+
+  /** Puts settings in force, for the next visit too. */
+  change(changed: Partial<Settings>): void {
+    this.apply(changed);
+    this.#keep(sound(changed));
   }
 
   apply(changed: Partial<Settings>): void {

@@ -26,8 +26,8 @@ export class Stage {
   }
 
   /** Shows a tape from a file. */
-  open(tape: Opened, name: string, how?: How, from?: number): void {
-    this.recording.open(tape, name, how, from);
+  open(tape: Opened, made: Maker, how?: How, from?: number): void {
+    this.recording.open(tape, made, how, from);
     this.pictures.isStale = false;
     this.#begin();
     this.pictures.grown(true);

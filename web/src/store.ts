@@ -2,7 +2,7 @@
  * are kept until the page is left. */
 import type { PunchedLine } from "./board.ts";
 import type { Origin } from "./identity.ts";
-import { type How, isHow, type KeptTape } from "./recording.ts";
+import { type How, isHow, type KeptTape, type Maker } from "./recording.ts";
 import type { Work } from "./works.ts";
 
 export interface Kept {
@@ -39,6 +39,9 @@ export interface Everything {
   kept: Kept | null;
   settings: Partial<Settings>;
   tape: string;
+  /** What made the tape, and its lines with their places, where it is none of a file's. */
+  made?: Maker;
+  lines?: PunchedLine[];
   /** The tape was made in another way than by one RUN; the line of RUN n. */
   how?: How;
   from?: number;
@@ -98,12 +101,7 @@ export class Store {
   /** The tape that was drawn last. */
   get tape(): KeptTape | null {
     const tape = this.#read<KeptTape>(TAPE);
-    return typeof tape?.made?.name === "string" &&
-      Array.isArray(tape.lines) &&
-      tape.lines.every(isPunched) &&
-      isHow(tape.how ?? "run")
-      ? tape
-      : null;
+    return isMaker(tape?.made) && areLines(tape?.lines) && isHow(tape?.how ?? "run") ? tape : null;
   }
 
   set tape(tape: KeptTape | null) {
@@ -170,6 +168,13 @@ function isPunched(line: unknown): line is PunchedLine {
   return typeof text === "string" && [number, x, y].every((each) => typeof each === "number");
 }
 
+const areLines = (lines: unknown): lines is PunchedLine[] => Array.isArray(lines) && lines.every(isPunched);
+
+function isMaker(made: unknown): made is Maker {
+  const { name, program } = (made ?? {}) as Maker;
+  return typeof name === "string" && (program === undefined || typeof program === "string");
+}
+
 function isWork(work: unknown): work is Work {
   const { id, name, when, program } = (work ?? {}) as Work;
   return [id, name, program].every((each) => typeof each === "string") && typeof when === "number";
@@ -190,6 +195,8 @@ export function readEverything(text: string): Everything | undefined {
       (found.kept === null || isKept(found.kept)) &&
       typeof found.settings === "object" &&
       isHow(found.how ?? "run") &&
+      (found.made === undefined || isMaker(found.made)) &&
+      (found.lines === undefined || areLines(found.lines)) &&
       (found.works ?? []).every(isWork) &&
       typeof found.tape === "string";
     return isOne ? found : undefined;

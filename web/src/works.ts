@@ -65,11 +65,12 @@ export class Works {
     return this.#id;
   }
 
-  /** Goes on with a work of the last visit. */
-  goOn(id: string): void {
+  /** Goes on with the work of the last visit. Without one the program in the machine was deleted, or opened and not changed: it does
+   * not come back by itself. */
+  goOn(id: string | undefined, program: string): void {
     const work = this.#shelf.works.find((each) => each.id === id);
     this.#id = work?.id;
-    this.#last = work?.program ?? "";
+    this.#last = work?.program ?? (id === undefined ? program : "");
   }
 
   /** Begins another work: what is kept next gets an entry of its own, also when it is a change of one that was opened. */

@@ -323,6 +323,16 @@ describe("nothing is lost", { skip: existsSync(CHROMIUM) ? false : "chromium is 
     await open(other.page, "all.json", all);
     await message(other.page, /all\.json/);
     assert.equal((await works(other.page)).length, 3, "none is there twice");
+    // the tape is the saved program's, not that of the part that was seen before; so is it after a reload
+    for (const time of ["brought back", "reloaded"]) {
+      await says(other.page, "#made", "HELLOWORLD");
+      await prompt(other.page);
+      await other.page.locator("details.menu summary").first().click();
+      const [brought] = await Promise.all([other.page.waitForEvent("download"), other.page.click('[data-save="3b"]')]);
+      assert.equal(brought.suggestedFilename(), "helloworld.3b", time);
+      await other.page.reload();
+      await other.page.waitForSelector("body[data-ready]");
+    }
     await other.context.close();
   });
 

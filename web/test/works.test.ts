@@ -53,7 +53,7 @@ test("typed line by line it is one work; a reload goes on with it; an example is
   const present = kept.present;
   assert.equal(present, there.works[0]?.id);
   kept.begin();
-  kept.goOn(present as string);
+  kept.goOn(present, there.works[0]?.program ?? "");
   kept.keep(program("AT LAST", A, B, C));
   kept.keep(program("EXAMPLE"));
   kept.keep("");
@@ -68,6 +68,10 @@ test("deleted comes back; works of a file come once, whatever their ids", () => 
   assert.deepEqual(titles(), []);
   kept.keep(program("ONE", A));
   assert.deepEqual(titles(), [], "it does not come back by itself");
+  kept.begin();
+  kept.goOn(kept.present, program("ONE", A));
+  kept.keep(program("ONE", A));
+  assert.deepEqual(titles(), [], "nor after a reload");
   undo();
   assert.deepEqual(kept.all, [one]);
   kept.add([one, { ...one, program: program("OTHER", A) }]);
