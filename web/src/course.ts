@@ -2,7 +2,7 @@
 import { get, make, onClick, tell } from "./dom.ts";
 import { t } from "./language.ts";
 import { differenceOf, LessonError, type Lessons, readLessons, type Step } from "./lessons.ts";
-import { pack } from "./link.ts";
+import { LinkError, MOST, pack } from "./link.ts";
 import { say, show } from "./message.ts";
 import { insideText } from "./pieces.ts";
 import { isSmall, view } from "./shell.ts";
@@ -17,6 +17,8 @@ export class Course {
   #at = 0;
   /** The file that a teacher wrote, packed for the address; empty: the page's own steps. */
   #code = "";
+  /** Programs as the machine lists them, with the texts that it was given: a teacher may write small letters, blanks, 5.0. */
+  readonly #texts = new Map<string, string>();
 
   constructor(bench: Workbench) {
     this.#bench = bench;
@@ -37,7 +39,17 @@ export class Course {
 
   /** A program that the lessons give: none of the learner's. */
   isGiven(program: string): boolean {
-    return this.#lessons?.steps.some((step) => step.program === program || step.answer === program) ?? false;
+    const text = this.#textOf(program);
+    return this.#lessons?.steps.some((step) => step.program === text || step.answer === text) ?? false;
+  }
+
+  /** The machine lists a text that was sent to it. */
+  listed(text: string, program: string): void {
+    if (this.#lessons) this.#texts.set(program, text);
+  }
+
+  #textOf(program: string): string {
+    return this.#texts.get(program) ?? program;
   }
 
   /** Opens the page's own steps, at one of them from 1. */
@@ -50,13 +62,16 @@ export class Course {
   /** Opens a teacher's file. */
   async open(name: string, text: string, number = 1): Promise<void> {
     try {
-      this.#lessons = readLessons(text);
+      const found = readLessons(text);
+      // (its link holds the file)
+      this.#code = await pack(text);
+      this.#lessons = found;
     } catch (error) {
-      if (!(error instanceof LessonError)) throw error;
-      say(error.why, name, error.line);
+      if (error instanceof LessonError) say(error.why, name, error.line);
+      else if (error instanceof LinkError) say("badLarge", name, MOST / 1024);
+      else throw error;
       return;
     }
-    this.#code = await pack(text);
     this.#go(number - 1);
   }
 
@@ -87,7 +102,8 @@ export class Course {
       // (on a small screen the drawing is seen now)
       if (text && isSmall()) show(text);
     };
-    const isStart = recording.made.program === undefined || recording.made.program === step.program;
+    const { program } = recording.made;
+    const isStart = program === undefined || this.#textOf(program) === step.program;
     if (recording.isEmpty || isStart) answer("");
     else if (!recording.isWhole || recording.how !== "run" || this.#bench.isStale) answer(t("lessonRun"));
     else if (!step.tape) {

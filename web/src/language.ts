@@ -193,6 +193,10 @@ const WORDS = {
   lessonMissing: ["Not yet: nothing is cut at x {0}  y {1} mm.", "还不对：x {0}  y {1} mm 处没有切割。"],
   lessonStep: ["{0} has no step: a step begins with ## and its title.", "{0} 没有步骤：每步以 ## 和标题开头。"],
   lessonFence: ["{0}, line {1}: the fence ``` has no end.", "{0} 第 {1} 行：围栏 ``` 没有结尾。"],
+  lessonKind: [
+    "{0}, line {1}: ```skg, ```skg answer and ```tape stand in a step, written so.",
+    "{0} 第 {1} 行：```skg、```skg answer、```tape 要写在步骤之中，并照此书写。",
+  ],
   lessonTape: ["{0}, line {1}: this is no 3B block.", "{0} 第 {1} 行：这不是 3B 程序段。"],
   works: ["My programs", "我的程序"],
   deleteWork: ["Delete {0}", "删除 {0}"],

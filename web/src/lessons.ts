@@ -24,11 +24,14 @@ export interface Lessons {
 export class LessonError extends Error {
   constructor(
     readonly line: number,
-    readonly why: "lessonStep" | "lessonFence" | "lessonTape",
+    readonly why: "lessonStep" | "lessonFence" | "lessonKind" | "lessonTape",
   ) {
     super(`${line}: ${why}`);
   }
 }
+
+/** The fences of a step, by the words behind their backquotes. */
+const KINDS: Record<string, keyof Step> = { skg: "program", "skg answer": "answer", tape: "tape" };
 
 /** Reads a file of steps. */
 export function readLessons(text: string): Lessons {
@@ -53,7 +56,10 @@ export function readLessons(text: string): Lessons {
       fence = undefined;
     } else if (opened) {
       flush();
-      const kind = { skg: "program", "skg answer": "answer", tape: "tape" }[(opened[1] ?? "").trim()] as keyof Step | undefined;
+      const words = (opened[1] ?? "").trim();
+      const kind = KINDS[words];
+      // (another kind is the teacher's note: it is not shown)
+      if (/^(skg|tape)\b/.test(words) && !(kind && step)) throw new LessonError(at + 1, "lessonKind");
       fence = { kind, line: at + 1, rows: [] };
     } else if (row.startsWith("## ")) {
       flush();

@@ -48,7 +48,8 @@ const works = new Works(
   (program) => partOf(program) !== undefined || course.isGiven(program),
   tellWorks,
 );
-const bench = new Workbench({ works, partOf, isAuto: () => settings.auto, openManual, showDrawing });
+const listed = (text: string, program: string): void => course.listed(text, program);
+const bench = new Workbench({ works, partOf, listed, isAuto: () => settings.auto, openManual, showDrawing });
 const teletype = new Teletype(get("terminal"), { type: (text) => session.type(text), press: (key) => session.press(key) }, "");
 const status = new StatusLine(bench, teletype);
 const inside = new Inside();

@@ -26,6 +26,8 @@ export interface Surroundings {
   partOf(program: string): string | undefined;
   /** A change runs by itself. */
   isAuto(): boolean;
+  /** The machine lists a text that was sent to it. */
+  listed(text: string, program: string): void;
   /** The manual, at a chapter. */
   openManual(chapter: number): void;
   /** The drawing is to be seen. */
@@ -104,6 +106,7 @@ export class Workbench {
     if (this.#sent !== undefined && !hasLinesOf(program, this.#sent) && this.session.isRunning) return;
     this.stage.tell({ ...this.#nameOf(program), program });
     const isSent = this.#sent === this.editor.text;
+    if (this.#sent !== undefined && isSent) this.#around.listed(this.#sent, program);
     if (isSent && this.linked === this.#sent) this.linked = program;
     if (isSent ? hasLinesOf(program, this.editor.text) : before === this.editor.text) this.editor.text = program;
     this.#sent = undefined;

@@ -68,6 +68,8 @@ test("a teacher's file: what is wrong, and where", () => {
     ["# Only a title\n", 1, "lessonStep"],
     ["## A\n\n```skg\n10 END\n", 3, "lessonFence"],
     ["## A\n\n```tape\nB1B2B2GYL1\nhello\n```\n", 5, "lessonTape"],
+    ["## A\n\n```skg anser\n10 END\n```\n", 3, "lessonKind"],
+    ["# Before a step\n\n```skg\n10 END\n```\n\n## A\n", 3, "lessonKind"],
   ] as const) {
     assert.throws(
       () => readLessons(text),

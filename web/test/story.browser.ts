@@ -18,6 +18,7 @@ import {
   served,
   shot,
   visit,
+  wholeTape,
 } from "./chromium.ts";
 import { serve, WHOLE } from "./served.ts";
 
@@ -235,15 +236,21 @@ describe("the story", { skip: existsSync(CHROMIUM) ? false : "chromium is not in
     await open(
       page,
       "mine.md",
-      "# M\n\n## A hole\n\nTask: cut `C`.\n\n```skg\n10 C=O:3\n20 FROM O\n30 END\n```\n\n```tape\nB3000B0B3000GXL1\nB3000B0B12000GYNR1\nB3000B0B3000GXL3\nDD\n```\n",
+      "# M\n\n## A hole\n\nTask: cut `C`.\n\n```skg\n10 c=o:3.0\n20 from O\n25 cut O,(1,0)\n30 end\n```\n\n```tape\nB3000B0B3000GXL1\nB3000B0B12000GYNR1\nB3000B0B3000GXL3\nDD\n```\n",
     );
     await says(page, "#lesson-title", "1/1 A hole");
+    // (given in other letters than the machine lists it, it is still what was given: no answer, and none of the learner's)
+    await wholeTape(page, 1);
+    await hasLines(page, ["10 C=O:3", "20 FROM O", "25 CUT O,(1,0)", "30 END"]);
+    await prompt(page);
+    assert.equal(await page.textContent("#lesson-check"), "");
+    assert.equal(await page.locator(".work").count(), 1);
     const link = await page.evaluate(() => location.href);
     assert.match(link, /#lessons=[\w-]+&lesson=1$/);
     await context.close();
     const other = await visit({}, new URL(link).hash);
     await says(other.page, "#lesson-title", "1/1 A hole");
-    await hasLines(other.page, ["10 C=O:3", "20 FROM O", "30 END"]);
+    await hasLines(other.page, ["10 C=O:3", "20 FROM O", "25 CUT O,(1,0)", "30 END"]);
     await prompt(other.page);
     await other.page.click("#terminal");
     // (pasted, all in one go: the machine tells the program when the tape is there)
