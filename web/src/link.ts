@@ -69,7 +69,8 @@ export async function readLink(hash: string): Promise<Link> {
   if (code !== null) link.program = await unpack(code);
   if (part) link.part = part;
   const [lesson, lessons] = [fields.get("lesson"), fields.get("lessons")];
-  if (lesson && /^\d{1,3}$/.test(lesson)) link.lesson = Number(lesson);
-  if (lessons) link.lessons = await unpack(lessons);
+  if (lesson !== null && !/^[1-9]\d{0,2}$/.test(lesson)) throw new LinkError("no step");
+  if (lesson !== null) link.lesson = Number(lesson);
+  if (lessons !== null) link.lessons = await unpack(lessons);
   return link;
 }

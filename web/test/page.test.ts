@@ -126,6 +126,13 @@ test("base64 and saved pages", () => {
   assert.deepEqual(fromBase64(toBase64(some)), some);
   assert.equal(fromBase64("*"), undefined);
   assert.equal(readEverything("not json"), undefined);
+  const saved = { format: "skg-page", version: 1, kept: null, settings: {}, tape: "DD\r\n", made: { name: "a", program: "" } };
+  assert.deepEqual(readEverything(JSON.stringify(saved)), saved);
+  assert.equal(readEverything(JSON.stringify({ ...saved, made: {} })), undefined);
+  assert.equal(readEverything(JSON.stringify({ ...saved, lines: [{}] })), undefined);
+  // a tape of 2 MB is opened, so all that is saved beside it is, too
+  const large = new TextEncoder().encode(JSON.stringify({ ...saved, tape: "x".repeat(2 ** 21) }));
+  assert.equal(recognize("all.json", large).kind, "saved");
 });
 
 test("the window zooms about a pixel and shows all of a box", () => {
@@ -171,6 +178,7 @@ test("a typed line with a character that the machine has not is dropped, and wha
 test("a link without a program is none", async () => {
   await assert.rejects(unpack(await pack(" \n")), LinkError);
   assert.deepEqual(await readLink("#part="), { run: false, embed: false });
+  for (const none of ["#lesson=x", "#lesson=0", "#lesson=", "#lessons="]) await assert.rejects(readLink(none), LinkError, none);
 });
 
 test("every part of examples/ has one place in the catalogue", () => {
