@@ -41,6 +41,11 @@ export class Sound {
     this.#cut();
   }
 
+  constructor() {
+    // (a page that is not seen draws no wire: it does not go on there)
+    document.addEventListener("visibilitychange", () => this.#cut());
+  }
+
   #begin(): void {
     this.#context ??= new AudioContext();
     const context = this.#context;
@@ -83,7 +88,7 @@ export class Sound {
 
   #cut(): void {
     const context = this.#context;
-    const wants = this.#isOn && this.#isCutting && context;
+    const wants = this.#isOn && this.#isCutting && document.visibilityState === "visible" && context;
     if (!wants) {
       this.#crackle?.stop();
       this.#crackle = undefined;
