@@ -17,8 +17,9 @@ export class Course {
   #at = 0;
   /** The file that a teacher wrote, packed for the address; empty: the page's own steps. */
   #code = "";
-  /** Programs as the machine lists them, with the texts that it was given: a teacher may write small letters, blanks, 5.0. */
-  readonly #texts = new Map<string, string>();
+  /** All programs of the steps that were opened, and as the machine lists them, with their texts: a teacher may write small letters,
+   * blanks, 5.0. They stay when the lessons are closed, or others opened. */
+  readonly #given = new Map<string, string>();
 
   constructor(bench: Workbench) {
     this.#bench = bench;
@@ -39,23 +40,23 @@ export class Course {
 
   /** A program that the lessons give: none of the learner's. */
   isGiven(program: string): boolean {
-    const text = this.#textOf(program);
-    return this.#lessons?.steps.some((step) => step.program === text || step.answer === text) ?? false;
+    return this.#given.has(program);
   }
 
   /** The machine lists a text that was sent to it. */
   listed(text: string, program: string): void {
-    if (this.#lessons) this.#texts.set(program, text);
+    if (this.#given.has(text)) this.#given.set(program, text);
   }
 
-  #textOf(program: string): string {
-    return this.#texts.get(program) ?? program;
+  #take(lessons: Lessons): void {
+    this.#lessons = lessons;
+    for (const { program, answer } of lessons.steps) for (const text of [program, answer]) this.#given.set(text, text);
   }
 
   /** Opens the page's own steps, at one of them from 1. */
   async begin(number: number): Promise<void> {
     this.#code = "";
-    this.#lessons = readLessons(await this.#read());
+    this.#take(readLessons(await this.#read()));
     this.#go(number - 1);
   }
 
@@ -65,7 +66,7 @@ export class Course {
       const found = readLessons(text);
       // (its link holds the file)
       this.#code = await pack(text);
-      this.#lessons = found;
+      this.#take(found);
     } catch (error) {
       if (error instanceof LessonError) say(error.why, name, error.line);
       else if (error instanceof LinkError) say("badLarge", name, MOST / 1024);
@@ -86,7 +87,7 @@ export class Course {
   /** The page speaks another language. */
   async retell(): Promise<void> {
     if (!this.#lessons) return;
-    if (!this.#code) this.#lessons = readLessons(await this.#read());
+    if (!this.#code) this.#take(readLessons(await this.#read()));
     this.#show();
   }
 
@@ -103,7 +104,7 @@ export class Course {
       if (text && isSmall()) show(text);
     };
     const { program } = recording.made;
-    const isStart = program === undefined || this.#textOf(program) === step.program;
+    const isStart = program === undefined || this.#given.get(program) === step.program;
     if (recording.isEmpty || isStart) answer("");
     else if (!recording.isWhole || recording.how !== "run" || this.#bench.isStale) answer(t("lessonRun"));
     else if (!step.tape) {

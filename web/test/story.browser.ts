@@ -14,6 +14,7 @@ import {
   open,
   paste,
   prompt,
+  runPart,
   says,
   served,
   shot,
@@ -256,7 +257,12 @@ describe("the story", { skip: existsSync(CHROMIUM) ? false : "chromium is not in
     // (pasted, all in one go: the machine tells the program when the tape is there)
     await paste(other.page, "25 CUT C\n27 BACK\nRUN\n");
     await says(other.page, "#lesson-check", /^Right/);
+    await other.page.click("#lesson-again");
+    await wholeTape(other.page, 1);
+    await prompt(other.page);
     await other.page.click("#lesson-close");
+    await runPart(other.page, "die");
+    assert.equal(await other.page.locator(".work").count(), 1, "what the step gave is not kept when the lessons are closed");
     assert.equal(await other.page.evaluate(() => location.hash), "");
     assert.equal(await other.page.isVisible("#lesson"), false);
     await other.page.click("#lesson-begin");
