@@ -34,9 +34,6 @@ debug *debug_new(board *b, const symbols *names, FILE *trace, bool stopped)
 void debug_free(debug *d)
 {
     if (d) {
-        if (d->trace) {
-            fclose(d->trace);
-        }
         free(d->calculator);
         free(d);
     }

@@ -16,7 +16,7 @@
 typedef struct debug debug;
 
 /* `names` may be NULL; `trace`: a file for all instructions, or NULL. With `stopped` it talks before the first
- * instruction. NULL without memory. The debugger keeps `names` and closes `trace`. */
+ * instruction. NULL without memory. The debugger keeps both. */
 debug *debug_new(board *b, const symbols *names, FILE *trace, bool stopped);
 void debug_free(debug *d);
 

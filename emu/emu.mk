@@ -2,7 +2,7 @@
 # emu/library.txt and emu/translated.txt are lists that tools/setup.py reads too: it builds the library without make.
 EMU_CFLAGS  := -O2 -std=c11 -D_DEFAULT_SOURCE -D_DARWIN_C_SOURCE -D_XOPEN_SOURCE=700 -Wall -Wextra
 EMU_PROGRAM := i8080.c board.c drive.c drawn.c com.c complain.c image.c options.c signs.c terminal.c terminal_posix.c \
-               main.c output.c tapefile.c operator.c symbols.c disasm.c calculator.c listing.c trace.c breaks.c debug.c commands.c
+               main.c output.c outfile.c operator.c symbols.c disasm.c calculator.c listing.c trace.c breaks.c debug.c commands.c
 EMU_LIBRARY := $(shell cat emu/library.txt)
 TRANSLATED  := $(shell cat emu/translated.txt)
 EMU_ASAN    := -g -O1 -fsanitize=address,undefined -fno-sanitize-recover=all

@@ -232,27 +232,15 @@ static int set_names(session *s)
     return s->names ? 0 : complain(EXIT_USAGE, "%s", error);
 }
 
-static int open_output(FILE **file, const char *path)
+static int open_output(outfile *file, const char *path)
 {
-    if (path && !(*file = fopen(path, "wb"))) {
-        return complain(EXIT_USAGE, "%s: %s", path, strerror(errno));
-    }
-    return 0;
-}
-
-static int open_punch(session *s)
-{
-    if (s->o.punch && !(s->punch = tapefile_open(&s->tape, s->o.punch))) {
-        return complain(EXIT_USAGE, "%s: %s", s->o.punch, strerror(errno));
-    }
-    return 0;
+    return path && !outfile_open(file, path) ? complain(EXIT_USAGE, "%s: %s", path, strerror(errno)) : 0;
 }
 
 /* Opens the debugger: --debug, --break, --trace. */
 static int set_debug(session *s)
 {
     const options *o = &s->o;
-    FILE *trace = NULL;
     bool talks = o->debug || o->break_count;
     if (!talks && !o->trace) {
         return o->sym ? complain(EXIT_USAGE, "--sym goes with --debug, --break or --trace") : 0;
@@ -261,11 +249,11 @@ static int set_debug(session *s)
         return complain(EXIT_USAGE, "--debug and --break need a terminal, a part or --pty");
     }
     int code = set_names(s);
-    code = code ? code : open_output(&trace, o->trace);
+    code = code ? code : open_output(&s->trace, o->trace);
     if (code) {
         return code;
     }
-    s->debug = debug_new(s->board, s->names, trace, o->debug);
+    s->debug = debug_new(s->board, s->names, s->trace.file, o->debug);
     if (!s->debug) {
         return complain(EXIT_ERR, "out of memory");
     }
@@ -319,7 +307,7 @@ static int set_drive(session *s)
 {
     int code = open_output(&s->steps, s->o.steps);
     code = code ? code : open_output(&s->picture, s->o.drive);
-    if (!code && s->picture && !(s->drawn = drawn_new())) {
+    if (!code && s->picture.file && !(s->drawn = drawn_new())) {
         return complain(EXIT_ERR, "out of memory");
     }
     return code;
@@ -356,13 +344,14 @@ static int with_part(session *s)
     if (answers) {
         answers[strcspn((char *)answers, "\x1a")] = '\0';
     }
-    s->paper = stderr;
-    s->punch = s->o.punch_pty ? NULL : stdout;
     code = set_tape(s, s->o.part);
-    code = code ? code : open_output(&s->paper, s->o.tty);
-    code = code ? code : open_punch(s);
+    code = code ? code : open_output(&s->tty, s->o.tty);
+    code = code ? code : open_output(&s->tape, s->o.punch);
+    s->paper = s->tty.file ? s->tty.file : stderr;
+    s->punch = s->tape.file ? s->tape.file : s->o.punch_pty ? NULL : stdout;
     complain_beside(s->paper == stderr ? s->board : NULL);
     code = code ? code : offer_line(s);
+    s->began = !code;
     code = code ? code : operator_part(s, answers ? (const char *)answers : "");
     if (s->o.punch_pty && *s->line.name && !s->line.deaf) {
         terminal_drain(&s->line);
@@ -374,10 +363,10 @@ static int with_part(session *s)
 
 static int with_terminal(session *s)
 {
-    FILE *copy = NULL;
     int code = s->o.tape ? set_tape(s, s->o.tape) : 0;
-    code = code ? code : open_output(&copy, s->o.tty);
-    code = code ? code : open_punch(s);
+    code = code ? code : open_output(&s->tty, s->o.tty);
+    code = code ? code : open_output(&s->tape, s->o.punch);
+    s->punch = s->tape.file;
     if (code) {
         return code;
     }
@@ -389,7 +378,7 @@ static int with_terminal(session *s)
     if (!s->o.pty) {
         terminal_open(&s->terminal);
     }
-    s->terminal.copy = copy;
+    s->terminal.copy = s->tty.file;
     terminal_catch_reset();
     if (s->terminal.leaves) {
         s->terminal.stops = s->o.debug || s->o.break_count;
@@ -399,6 +388,7 @@ static int with_terminal(session *s)
         remark("ctrl-C ends this; kill -USR1 %ld resets", (long)getpid());
     }
     complain_beside(s->o.pty ? NULL : s->board);
+    s->began = true;
     code = operator_terminal(s);
     complain_end_line(); /* the shell's prompt gets a line of its own */
     return code;
@@ -420,22 +410,22 @@ int main(int argc, char **argv)
     code = set_board(&s);
     code = code ? code : set_debug(&s);
     code = code ? code : set_drive(&s);
+    bool known = false;
     if (!code) {
         code = s.o.part ? with_part(&s) : with_terminal(&s);
-        bool known = s.failed && code;
-        output_draw(&s);
+        known = s.failed && code;
+        output_flush(&s);
+    }
+    if (s.began) {
         output_drive(&s);
-        if (!output_flush(&s) && !known) {
-            code = output_failure(&s);
-        }
-        const char *part = tapefile_close(&s.tape, s.punch);
-        if (part) {
-            remark("%s: what was punched so far, without the tape's end", part);
-            code = code ? code : EXIT_ERR;
-        }
-        if (s.o.stats) {
-            output_stats(&s);
-        }
+    }
+    bool is_whole = output_end(&s);
+    if (s.failed && !known) {
+        code = output_failure(&s);
+    }
+    code = code || is_whole ? code : EXIT_ERR;
+    if (s.began && s.o.stats) {
+        output_stats(&s);
     }
     drawn_free(s.drawn);
     debug_free(s.debug);

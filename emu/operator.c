@@ -27,7 +27,7 @@ static board_reason run_slice(session *s)
         memset(s->written, 0, sizeof s->written); /* the size of the RAM was found by writing to it */
     }
     if (reason == BOARD_PROMPT) {
-        output_draw_meanwhile(s);
+        output_settle(s);
     }
     return reason;
 }

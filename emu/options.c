@@ -3,6 +3,7 @@
 
 #include "complain.h"
 #include "image.h"
+#include "outfile.h"
 
 #include <errno.h>
 #include <getopt.h>
@@ -132,6 +133,14 @@ static bool will_be_one(const char *a, const char *b)
     return same_file(a, b) || (a && b && !strcmp(a, b) && stat(a, &file));
 }
 
+/* Is a file the one that another is written to at first? */
+static bool is_part(const char *part, const char *written)
+{
+    char name[4096];
+    return part && written && snprintf(name, sizeof name, "%s" OUTFILE_PART, written) < (int)sizeof name
+           && will_be_one(part, name);
+}
+
 /* The output file that is also an input, or another output; NULL: none. */
 static const char *overwritten(const options *o)
 {
@@ -140,14 +149,14 @@ static const char *overwritten(const options *o)
     enum { WRITTEN = sizeof written / sizeof *written };
     for (size_t w = 0; w < WRITTEN; w++) {
         for (size_t r = 0; r < sizeof read / sizeof *read; r++) {
-            if (same_file(written[w], read[r])) {
+            if (same_file(written[w], read[r]) || is_part(read[r], written[w])) {
                 return written[w];
             }
         }
     }
     for (size_t w = 0; w < WRITTEN; w++) {
-        for (size_t v = 0; v < w; v++) {
-            if (will_be_one(written[w], written[v])) {
+        for (size_t v = 0; v < WRITTEN; v++) {
+            if ((v < w && will_be_one(written[w], written[v])) || is_part(written[v], written[w])) {
                 return written[w];
             }
         }

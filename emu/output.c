@@ -5,8 +5,6 @@
 #include <ctype.h>
 #include <errno.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 static void put(session *s, uint8_t c, FILE *file)
 {
@@ -65,8 +63,9 @@ void output_punch(void *user, uint8_t byte)
     s->punched_nowhere = !s->punch && !s->o.punch_pty;
     if (s->punch) {
         put(s, byte, s->punch);
-        s->punch = tapefile_follow(&s->tape, s->punch, byte);
-        s->failed = s->punch ? s->failed : errno;
+        if (!outfile_punched(&s->tape, byte)) {
+            s->failed = errno;
+        }
     }
     if (s->o.punch_pty) {
         terminal_print(&s->line, byte);
@@ -78,39 +77,68 @@ void output_step(void *user, uint8_t value, uint64_t cycles)
 {
     session *s = user;
     (void)cycles;
-    if (s->steps) {
-        put(s, value, s->steps);
+    if (s->steps.file) {
+        put(s, value, s->steps.file);
     }
     if (s->drawn && !drawn_step(s->drawn, value)) {
         s->failed = ENOMEM;
     }
 }
 
-void output_draw(session *s)
+/* Writes the picture of the steps, in place of an earlier one. */
+static void draw(session *s)
 {
-    if (!s->picture) {
-        return;
-    }
-    rewind(s->picture);
-    /* (an earlier one may be longer) */
-    if ((s->steps_drawn && ftruncate(fileno(s->picture), 0)) || !drawn_write(s->drawn, s->picture)) {
+    if (!outfile_again(&s->picture) || !drawn_write(s->drawn, s->picture.file) || !outfile_keep(&s->picture)) {
         s->failed = errno;
     }
     s->steps_drawn = s->board->drive.steps;
 }
 
-void output_draw_meanwhile(session *s)
+/* Gives a file that is not empty its name. */
+static void settle(session *s, outfile *f)
 {
-    struct stat file;
-    if (s->steps_drawn != s->board->drive.steps && s->picture && !fstat(fileno(s->picture), &file)
-        && S_ISREG(file.st_mode)) {
-        output_draw(s);
+    if (f->file && !f->kept && ftell(f->file) > 0 && !outfile_keep(f)) {
+        s->failed = errno;
     }
+}
+
+void output_settle(session *s)
+{
+    settle(s, &s->tty);
+    settle(s, &s->steps);
+    settle(s, &s->trace);
+    /* (what is no plain file gets one picture alone) */
+    if (s->picture.part && s->steps_drawn != s->board->drive.steps) {
+        draw(s);
+    }
+}
+
+bool output_end(session *s)
+{
+    outfile *const files[] = { &s->tape, &s->tty, &s->steps, &s->trace, &s->picture };
+    if (s->began && s->picture.file) {
+        draw(s);
+    }
+    bool is_whole = true;
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        outfile *f = files[i];
+        if (s->began && !s->failed && f != &s->tape && !outfile_keep(f)) {
+            s->failed = errno;
+        }
+        const char *part = outfile_leave(f);
+        if (part) {
+            remark(
+                f == &s->tape ? "%s: what was punched so far, without the tape's end" : "%s: what was written so far",
+                part);
+            is_whole = is_whole && f != &s->tape;
+        }
+    }
+    return is_whole;
 }
 
 bool output_flush(session *s)
 {
-    FILE *const files[] = { s->paper, s->punch, s->steps, s->terminal.copy };
+    FILE *const files[] = { s->paper, s->punch, s->steps.file, s->terminal.copy };
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         if (files[i] && fflush(files[i])) {
             s->failed = errno;

@@ -9,11 +9,12 @@ void output_print(void *user, uint8_t c);
 void output_punch(void *user, uint8_t byte);
 void output_step(void *user, uint8_t value, uint64_t cycles);
 
-/* Writes the picture of the steps, in place of an earlier one. */
-void output_draw(session *s);
+/* At the prompt: what was written so far has its names (outfile.h), and the picture is one of all steps so far. */
+void output_settle(session *s);
 
-/* At the prompt: writes the picture so far. */
-void output_draw_meanwhile(session *s);
+/* At the end: the same for all of it, if the board was run at all; else the files before are there. Reports the parts
+ * that are left; false: one of them is a tape. */
+bool output_end(session *s);
 
 /* Flushes all output; false when some of it is lost. */
 bool output_flush(session *s);

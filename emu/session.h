@@ -9,8 +9,8 @@
 #include "debug.h"
 #include "drawn.h"
 #include "options.h"
+#include "outfile.h"
 #include "symbols.h"
-#include "tapefile.h"
 #include "terminal.h"
 
 #include <stdio.h>
@@ -28,11 +28,12 @@ typedef struct {
     terminal line;                  /* the machine's, with --punch-pty */
     bool running;                   /* the part has been loaded and RUN or END typed */
     pacer pacer;
-    FILE *paper, *punch, *steps;    /* NULL: nowhere */
-    tapefile tape;                  /* that of --punch */
-    FILE *picture;                  /* of the drive; NULL: none */
+    FILE *paper, *punch;            /* NULL: nowhere */
+    outfile tape, tty, steps, trace;    /* those of the options */
+    outfile picture;                /* of the drive */
     drawn *drawn;                   /* its lines, */
     uint64_t steps_drawn;           /* and the steps in the file so far */
+    bool began;                     /* the board has been run */
     bool punched_nowhere;           /* bytes were punched and are lost */
     uint64_t printed;               /* characters on the paper */
     char printing[ERROR_LINE + 1];  /* the beginning of its present line */

@@ -524,3 +524,56 @@ def test_ended_in_the_middle_of_a_tape(part: Part, tmp_path: Path, how: str) -> 
         process.send_signal(getattr(signal, how))
     assert process.returncode == -getattr(signal, how)
     assert tape.read_bytes() == b"old" and kept.read_bytes() == BLOCKS[0]
+
+
+WRITTEN = ["--punch", "--tty", "--steps", "--drive", "--trace"]
+
+
+@pytest.mark.parametrize("option", WRITTEN)
+def test_old_file_stays_until_there_is_another(skg80: Skg80, part: Part, tmp_path: Path, option: str) -> None:
+    """A run that never begins takes nothing away; one that ends leaves no part."""
+    path, kept, other = tmp_path / "x.svg", tmp_path / "x.svg.part", tmp_path / "other"
+    program = part(TWO_LINES + "40 END\n")
+    other.write_bytes(b"other")
+    path.write_bytes(b"old")
+    words = ["--rom", ROMS / "skg-drive.bin", option, path]
+    for wrong in (
+        [tmp_path / "absent"],
+        ["--input", tmp_path / "absent", program],
+        ["--baud", "9600", "--pty", program],
+    ):
+        assert skg80(*words, *wrong).returncode == 2
+        assert path.read_bytes() == b"old" and not kept.exists()
+    # (an older part may be a link to something else)
+    kept.hardlink_to(other)
+    assert skg80(*words, program).returncode == 0
+    assert path.read_bytes() != b"old" and not kept.exists() and other.read_bytes() == b"other"
+
+
+@pytest.mark.parametrize("option", WRITTEN)
+def test_not_onto_a_file_by_its_part(skg80: Skg80, part: Part, tmp_path: Path, option: str) -> None:
+    """Neither one that is read, nor another that is written."""
+    program = part(TWO_LINES + "40 END\n").rename(tmp_path / "x.svg.part")
+    other = "--tty" if option != "--tty" else "--punch"
+    for words in ([option, tmp_path / "x.svg", program], [option, "y.svg", other, "y.svg.part", program]):
+        assert says(complaint(skg80(*words), 2), "two")
+    assert program.read_text().startswith(TWO_LINES)
+
+
+def test_ended_in_the_middle_of_steps(part: Part, tmp_path: Path) -> None:
+    """Half of the steps do not pass for all of them."""
+    steps, picture, kept = tmp_path / "s", tmp_path / "s.svg", tmp_path / "s.part"
+    for path in (steps, picture):
+        path.write_bytes(b"old")
+    command = [SKG80, "--rom", ROMS / "skg-drive.bin", "--steps", steps, "--drive", picture]
+    with subprocess.Popen(
+        [*command, part(TWO_LINES + "40 GOTO 40\n")],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    ) as process:
+        while not (kept.exists() and kept.stat().st_size):
+            assert process.poll() is None
+            time.sleep(0.01)
+        process.terminate()
+    assert steps.read_bytes() == picture.read_bytes() == b"old"

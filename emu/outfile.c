@@ -1,0 +1,134 @@
+/* A file that a run writes. See outfile.h. */
+#include "outfile.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#ifdef _WIN32
+#include <io.h>
+#include <windows.h>
+
+static char *followed(const char *name)
+{
+    return _fullpath(NULL, name, 0);
+}
+
+static bool settle(FILE *file)
+{
+    return !fflush(file) && !_commit(_fileno(file));
+}
+
+/* (Windows gives no other name to a file that is open) */
+static bool take_place(outfile *f)
+{
+    if (!freopen("NUL", "wb", f->file)) {
+        return false;
+    }
+    bool moved = MoveFileExA(f->part, f->name, MOVEFILE_REPLACE_EXISTING);
+    bool opened = freopen(moved ? f->name : f->part, "ab", f->file);
+    errno = moved ? errno : EACCES;
+    return moved && opened;
+}
+#else
+/* A link is followed, one to nothing too: its own name is taken then. */
+static char *followed(const char *name)
+{
+    char *found = realpath(name, NULL);
+    return found ? found : strdup(name);
+}
+
+static bool settle(FILE *file)
+{
+    return !fflush(file) && !fsync(fileno(file));
+}
+
+static bool take_place(outfile *f)
+{
+    return !rename(f->part, f->name);
+}
+#endif
+
+/* The end of a program that SAVE punches. */
+enum { CTRL_Z = 0x1A };
+
+/* (an older part goes by its name alone: it may be a link to something else) */
+static FILE *begun(const char *part)
+{
+    unlink(part);
+    return fopen(part, "wb");
+}
+
+bool outfile_open(outfile *f, const char *name)
+{
+    struct stat file;
+    bool is_there = !stat(name, &file);
+    if (is_there && !S_ISREG(file.st_mode)) {
+        return (f->file = fopen(name, "wb"));
+    }
+    /* (one that may not be written shall not be replaced) */
+    if (is_there && access(name, W_OK)) {
+        return false;
+    }
+    f->name = followed(name);
+    f->part = f->name ? malloc(strlen(f->name) + sizeof OUTFILE_PART) : NULL;
+    if (!f->part) {
+        errno = ENOMEM;
+        return false;
+    }
+    strcat(strcpy(f->part, f->name), OUTFILE_PART);
+    return (f->file = begun(f->part));
+}
+
+bool outfile_keep(outfile *f)
+{
+    if (!f->file || f->kept) {
+        return true;
+    }
+    f->kept = !f->part || (settle(f->file) && take_place(f));
+    return f->kept;
+}
+
+bool outfile_again(outfile *f)
+{
+    if (!f->part || !f->kept) {
+        return true;
+    }
+    f->kept = false;
+    fclose(f->file);
+    return (f->file = begun(f->part));
+}
+
+bool outfile_punched(outfile *f, uint8_t byte)
+{
+    if (!f->part || byte == '\r' || !byte) {
+        return true;
+    }
+    bool ended =
+        !memcmp(f->end, "M30", TAPE_END) || !memcmp(f->end, "\nDD", TAPE_END) || !memcmp(f->end, "\0DD", TAPE_END);
+    memmove(f->end, f->end + 1, TAPE_END - 1);
+    f->end[TAPE_END - 1] = (char)byte;
+    if (byte != '\n' && byte != CTRL_Z) {
+        return true;
+    }
+    /* (line by line, so that a part is one of whole lines) */
+    if (fflush(f->file)) {
+        return false;
+    }
+    return (!ended && byte != CTRL_Z) || outfile_keep(f);
+}
+
+const char *outfile_leave(outfile *f)
+{
+    struct stat left;
+    if (f->file) {
+        fclose(f->file);
+        f->file = NULL;
+    }
+    if (!f->part || f->kept || stat(f->part, &left)) {
+        return NULL;
+    }
+    return left.st_size || unlink(f->part) ? f->part : NULL;
+}
