@@ -231,3 +231,19 @@ def test_not_onto_the_program(tmp_path: Path) -> None:
         )
         assert done.returncode == 2 and done.stderr.count("\n") == 1 and name.name in done.stderr
         assert program.read_text() == "10 END\n" and not list(tmp_path.glob("*.part"))
+
+
+def test_not_by_way_of_its_part(attended: Callable, port: Port, tmp_path: Path) -> None:
+    """The program is no part of the tape's; and an older part that is a link leads to nothing that is written."""
+    program, other = tmp_path / "p.3b.part", tmp_path / "other"
+    program.write_text("10 END\n")
+    words = [SKG, "term", port.link, "--send", program, "--record", tmp_path / "p.3b"]
+    done = subprocess.run(words, capture_output=True, text=True)
+    assert done.returncode == 2 and done.stderr.count("\n") == 1 and "p.3b.part" in done.stderr
+    assert program.read_text() == "10 END\n"
+    other.write_text("other")
+    (tmp_path / "tape.3b.part").symlink_to(other)
+    attended()
+    port.type(b"\x12", CAD_TAPE[:30])
+    until(lambda: part_of(tmp_path) == CAD_TAPE[:30])
+    assert other.read_text() == "other"

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from skg.commands.options import Seconds, spares_what_it_reads
+from skg.commands.options import Seconds, refuse_onto, spares_what_it_reads
 from skg.errors import UserError
 from skg.files import read_bytes
 from skg.messages.finding import Finding, Phrase
@@ -103,7 +103,7 @@ def command(
     The first ERR ends sending: then the keyboard is yours, or the exit code is 1.
     """
     from skg.machine.keyboard import raw_keyboard
-    from skg.machine.recorder import Recorder
+    from skg.machine.recorder import Recorder, part_of
     from skg.machine.sending import Stopped, TypedLine, Typist, finish, lines_to_type, make_tape, send
     from skg.machine.signals import closing_on_signals
     from skg.machine.teletype import BrokenOff, Port, Teletype, converse
@@ -116,6 +116,8 @@ def command(
     is_attended = sys.stdin is not None and sys.stdin.isatty() and not batch
     if patience is None:
         patience = 0.0 if is_attended else UNATTENDED_PATIENCE
+    if file and record:
+        refuse_onto([part_of(record)], [file])
     lines = lines_to_type(read_bytes(file), file) if file else []
     keyboard = str(Phrase("stdin"))
     keyed = [] if is_attended or batch or file == "-" or not sys.stdin else lines_to_type(read_bytes("-"), keyboard)

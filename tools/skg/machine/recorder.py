@@ -68,6 +68,11 @@ def _wrong_with_milling(data: bytes) -> Finding | None:
     return None
 
 
+def part_of(name: str) -> str:
+    """The name under which a tape's file is written at first."""
+    return f"{os.path.realpath(name)}.part"
+
+
 class Recorder:
     """Writes what is punched to `NAME.part`, and gives it its name at the end, by `finish`; else it stays so, and that
     is said. What is no plain file, a printer for one, gets it as it comes."""
@@ -76,8 +81,11 @@ class Recorder:
         self.name = name
         target = Path(os.path.realpath(name))
         self._is_plain = not target.exists() or target.is_file()
-        self._path = target.with_name(f"{target.name}.part") if self._is_plain else target
+        self._path = Path(part_of(name)) if self._is_plain else target
         try:
+            if self._is_plain:
+                # (an older part goes by its name alone: it may be a link to something else)
+                self._path.unlink(missing_ok=True)
             self._file = self._path.open("w+b" if self._is_plain else "wb", buffering=0)
         except OSError as error:
             raise UserError(of_system(error).within(str(self._path))) from None
