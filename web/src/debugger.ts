@@ -2,7 +2,7 @@
  * stop. Loaded when it is first wanted. */
 import type { Look } from "./board.ts";
 import { make } from "./dom.ts";
-import { type Firmware, hex, type Line } from "./firmware.ts";
+import { Firmware, hex, type Line } from "./firmware.ts";
 import { t, type Word } from "./language.ts";
 import type { Move } from "./stepper.ts";
 
@@ -45,8 +45,7 @@ export class Debugger {
   #look: Look | undefined;
   #isHeld = false;
 
-  /** Fills the box; `debug` tells the board what to do. */
-  constructor(box: HTMLElement, firmware: Firmware, debug: (how: Move, stops: readonly number[]) => void) {
+  private constructor(box: HTMLElement, firmware: Firmware, debug: (how: Move, stops: readonly number[]) => void) {
     this.#firmware = firmware;
     this.#debug = debug;
     const bar = make("div", "bar");
@@ -76,6 +75,16 @@ export class Debugger {
       }),
       this.#stopList,
     );
+  }
+
+  /** Fills the box. `module` is inside.wasm, `sym` roms/skg.sym; `debug` tells the board what to do. */
+  static async create(
+    box: HTMLElement,
+    module: WebAssembly.Module,
+    sym: string,
+    debug: (how: Move, stops: readonly number[]) => void,
+  ): Promise<Debugger> {
+    return new Debugger(box, await Firmware.create(module, sym), debug);
   }
 
   /** Looks at the board from now on; the stops of last time are in force again. */

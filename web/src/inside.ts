@@ -13,15 +13,12 @@ export class Inside {
   async open(session: Session): Promise<void> {
     if (!this.#debugger) {
       try {
-        const [{ Debugger }, { Firmware }, module, sym] = await Promise.all([
+        const [{ Debugger }, module, sym] = await Promise.all([
           import("./debugger.ts"),
-          import("./firmware.ts"),
           readModule("inside.wasm"),
           readSymbols(),
         ]);
-        this.#debugger = new Debugger(get("inside"), await Firmware.create(module, sym), (how, stops) =>
-          session.debug(how, stops),
-        );
+        this.#debugger = await Debugger.create(get("inside"), module, sym, (how, stops) => session.debug(how, stops));
       } catch {
         say("noDebugger");
         return;
