@@ -11,6 +11,7 @@ from __future__ import annotations
 import argparse
 import gzip
 import hashlib
+import importlib.util
 import io
 import os
 import re
@@ -27,6 +28,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
+import notices
 import windows
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -131,6 +133,20 @@ def skg80(target: Target) -> Path:
         # (a compiler for Windows leaves more beside it)
         run(*target.compiler, *options, "-o", Path(folder) / made.name, *sources, *rom, "-lm")
         shutil.copy(Path(folder) / made.name, made)
+    return made
+
+
+def skg80_notices() -> Path:
+    """The licences of what zig puts into skg80. (What is for macOS takes the system's library.)"""
+    made = DIST / f"skg80-{VERSION}-NOTICES.txt"
+    library = Path(importlib.util.find_spec("ziglang").origin).parent / "lib" / "libc"
+    parts = [
+        notices.of_file("musl", "", "MIT, in skg80 for Linux", library / "musl" / "COPYRIGHT"),
+        notices.of_file("mingw-w64", "", "in skg80 for Windows", library / "mingw" / "COPYING"),
+    ]
+    text = notices.written("skg80 holds these works of others, under their licences:", parts)
+    # (Notepad wants a mark and its own line ends)
+    made.write_text(text, encoding="utf-8-sig", newline="\r\n")
     return made
 
 
@@ -261,6 +277,7 @@ def main() -> None:
         ("cpm.zip", cpm),
         ("arduino.zip", arduino),
         ("pico.uf2", pico),
+        ("skg80-NOTICES", skg80_notices),
     ]
     for target in TARGETS:
         if target.wheel:
