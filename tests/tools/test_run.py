@@ -337,11 +337,19 @@ def test_every_command_says_what_is_given_up(run_program: Program, tmp_path: Pat
         assert sum(says(line, given_up) for line in done.stderr.splitlines()) == 1, words
 
 
-def test_a_broken_run_leaves_its_tape_without_an_end(run_program: Program, tmp_path: Path) -> None:
-    part, tape = tmp_path / "part.skg", tmp_path / "part.3b"
+@pytest.mark.parametrize("command", ["run", "ref"])
+def test_a_broken_run_leaves_the_tape_before(run_program: Program, tmp_path: Path, command: str) -> None:
+    """And keeps its own beside it, without an end; one that has punched nothing keeps none."""
+    part, tape, kept = tmp_path / "part.skg", tmp_path / "part.3b", tmp_path / "part.3b.part"
+    tape.write_bytes(b"old")
+    part.write_text("10 FROM O\n20 CUT (10,0\n")
+    assert run_program(command, part, "-o", tape).returncode == 1
+    assert tape.read_bytes() == b"old" and not kept.exists()
     part.write_text("10 FROM O\n20 CUT (10,0);(10,10)\n30 CUT (20,10);(20,20)\n40 CUT X,(5,5):1\n50 BACK\n60 END\n")
-    assert run_program("run", part, "-o", tape).returncode == 1
-    lines = tape.read_bytes().split()
+    done = run_program(command, part, "-o", tape)
+    assert done.returncode == 1 and says(done.stderr, "part.3b.part")
+    assert tape.read_bytes() == b"old"
+    lines = kept.read_bytes().split()
     assert len(lines) > 2 and lines[-1] == b"D" and b"DD" not in lines
 
 

@@ -97,6 +97,11 @@ def is_same_file(one: str, other: str) -> bool:
     return first == second
 
 
+def part_of(name: str) -> str:
+    """The name of a file with a tape that is not whole, beside the one that it was to be."""
+    return f"{os.path.realpath(name)}.part"
+
+
 @contextmanager
 def _new_file(path: str) -> Iterator[BinaryIO]:
     """A file to write: it takes the place of an older one when all of it is written and on the disk, and not before.

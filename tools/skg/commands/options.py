@@ -10,7 +10,7 @@ from pathlib import Path
 import click
 
 from skg.errors import UserError
-from skg.files import is_same_file
+from skg.files import is_same_file, part_of, write_bytes
 from skg.job.setups import Setups
 from skg.job.values import LEAST_FEED, MOST_OFFSET
 from skg.messages.finding import Finding, Phrase
@@ -118,6 +118,17 @@ def refuse_onto(written: Sequence[str], read: Sequence[str]) -> None:
     for index, name in enumerate(real):
         if any(is_same_file(name, other) for other in [*read, *real[:index]]):
             raise UserError(Finding("written-twice").within(name))
+
+
+def write_tape(output: str, data: bytes, is_whole: bool) -> None:
+    """Write what a run has punched. One that ended early leaves the tape before as it is, and its own as a part."""
+    target = Path(output)
+    if is_whole or output == "-" or target.exists() and not target.is_file():
+        write_bytes(output, data)
+    elif data:
+        part = part_of(output)
+        write_bytes(part, data)
+        remark(Finding("tape-broken-off").within(part))
 
 
 class MachineName(click.ParamType):

@@ -6,9 +6,9 @@ import sys
 
 import click
 
-from skg.commands.options import answers_option, output_option
+from skg.commands.options import answers_option, output_option, write_tape
 from skg.errors import UserError
-from skg.files import board_text, read_bytes, write_bytes
+from skg.files import board_text, read_bytes
 from skg.messages.finding import Finding
 from skg.terminal import remark
 
@@ -52,5 +52,5 @@ def command(part: str, output: str, answers: str | None, drift: bool, mill: bool
         remark(Finding("milling-with-mill").within(part))
     if lost := given_up(program):
         remark(lost.within(part))
-    write_bytes(output, result.tape)
+    write_tape(output, result.tape, is_whole=result.error is None)
     sys.exit(0 if result.error is None else 1)

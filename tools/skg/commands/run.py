@@ -8,9 +8,9 @@ from contextlib import suppress
 
 import click
 
-from skg.commands.options import answers_option, output_option, unmarked
+from skg.commands.options import answers_option, output_option, unmarked, write_tape
 from skg.errors import UserError
-from skg.files import board_text, read_bytes, write_bytes
+from skg.files import board_text, read_bytes
 from skg.machine.board import Board, BoardStopped, meaning
 from skg.machine.feeding import MEMORY_FULL, given_up, rest_of, too_large
 from skg.machine.roms import ROMS, known_rom
@@ -90,7 +90,7 @@ def command(part: str, output: str, rom: str | None, ram: int, answers: str | No
     except BoardStopped as stopped:
         remark(stopped.finding.within(part))
         code = STOPPED.get(stopped.reason, ERR)
-    write_bytes(output, tape)
+    write_tape(output, tape, is_whole=not code)
     if lost := given_up(text):
         remark(lost.within(part))
     known = known_rom(rom)

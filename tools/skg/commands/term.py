@@ -12,7 +12,7 @@ import click
 
 from skg.commands.options import Seconds, refuse_onto, spares_what_it_reads
 from skg.errors import UserError
-from skg.files import read_bytes
+from skg.files import part_of, read_bytes
 from skg.messages.finding import Finding, Phrase
 from skg.terminal import remark
 
@@ -103,7 +103,7 @@ def command(
     The first ERR ends sending: then the keyboard is yours, or the exit code is 1.
     """
     from skg.machine.keyboard import raw_keyboard
-    from skg.machine.recorder import Recorder, part_of
+    from skg.machine.recorder import Recorder
     from skg.machine.sending import Stopped, TypedLine, Typist, finish, lines_to_type, make_tape, send
     from skg.machine.signals import closing_on_signals
     from skg.machine.teletype import BrokenOff, Port, Teletype, converse

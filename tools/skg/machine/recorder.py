@@ -8,7 +8,7 @@ from pathlib import Path
 from types import TracebackType
 
 from skg.errors import UserError, of_system
-from skg.files import write_bytes
+from skg.files import part_of, write_bytes
 from skg.messages.finding import Finding
 from skg.tape.text import scan
 from skg.terminal import remark
@@ -66,11 +66,6 @@ def _wrong_with_milling(data: bytes) -> Finding | None:
     if end or not blocks or not blocks[-1].endswith(b"M30"):
         return Finding("tape-no-end", end="M30")
     return None
-
-
-def part_of(name: str) -> str:
-    """The name under which a tape's file is written at first."""
-    return f"{os.path.realpath(name)}.part"
 
 
 class Recorder:
