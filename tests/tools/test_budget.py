@@ -105,8 +105,9 @@ def test_the_command_says_it_too(run: Run, tmp_path: Path) -> None:
     drawing = tmp_path / "blocks.dxf"
     drawing.write_bytes(GROWING["blocks.dxf"])
     for options in (["--quiet", "-o", tmp_path / "a.3b"], ["--list-layers"]):
-        with pytest.raises(UserError, match=MANY):
+        with pytest.raises(UserError, match=MANY) as refused:
             run("cut", drawing, *options)
+        assert says(refused.value, "blocks.dxf")
 
 
 def test_what_is_less_is_read() -> None:

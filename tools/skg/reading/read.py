@@ -195,7 +195,10 @@ def _moved(finding: Finding, by: XY) -> Finding:
 
 def layer_lines(data: bytes, name: str, wishes: Wishes) -> tuple[list[str], list[Finding]]:
     """List the entities of each layer of a drawing file, a line each; and what was guessed or mended to read it."""
-    content, report = _content(data, name, wishes)
+    try:
+        content, report = _content(data, name, wishes)
+    except UserError as error:
+        raise error.within(name) from None
     kinds: dict[str, Counter[str]] = defaultdict(Counter)
     for entity in content.entities:
         kinds[entity.layer][entity.kind] += 1
