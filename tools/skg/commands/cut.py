@@ -67,19 +67,20 @@ class JobValue(click.ParamType):
             return self.fail(str(Phrase("value-wrong", value=repr(value), why=wrong.why)), param, ctx)
 
 
+def _of_numbers(check: Callable[[object], object]) -> Callable[[object], object]:
+    """The check of numbers with commas between them."""
+    return lambda value: check(value if isinstance(value, tuple) else numbers_in(value))
+
+
 #: Numbers with commas between them, none below 0, such as 0.06,0.02,0.
-PASSES = JobValue("MM,MM,...", lambda value: values.passes(value if isinstance(value, tuple) else numbers_in(value)))
+PASSES = JobValue("MM,MM,...", _of_numbers(values.passes))
 #: The same for cuts that come on top.
-MORE_PASSES = JobValue(
-    "MM,MM,...", lambda value: values.more_passes(value if isinstance(value, tuple) else numbers_in(value))
-)
+MORE_PASSES = JobValue("MM,MM,...", _of_numbers(values.more_passes))
 #: X,Y or a word for a place of the part's box.
 ORIGIN = JobValue("X,Y|WORD", lambda value: values.origin(numbers_in(value) or value))
 #: A number for each pass; further passes are as the last.
-RATES = JobValue(
-    "N,N,...", lambda value: values.by_pass(is_open=True)(value if isinstance(value, tuple) else numbers_in(value))
-)
-PRICES = JobValue("N,N,...", lambda value: values.by_pass()(value if isinstance(value, tuple) else numbers_in(value)))
+RATES = JobValue("N,N,...", _of_numbers(values.by_pass(is_open=True)))
+PRICES = JobValue("N,N,...", _of_numbers(values.by_pass()))
 #: A text of one line.
 WORDS = JobValue("text", values.text)
 

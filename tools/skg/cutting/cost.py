@@ -16,9 +16,12 @@ _CENT = Decimal("0.01")
 
 @dataclass(frozen=True)
 class Cost:
-    """What a cut takes. `areas`: mm² in each pass, none without the stock's thickness; `holes`: start holes, each
-    once; `passes`: along contours. `parts`: what the areas, the holes and the passes come to, None: without prices, or
-    without a thickness that they want. `is_without`: so do the prices, or the rates."""
+    """Area, start holes and passes of a cut, and their price.
+
+    `areas`: mm² in each pass, none without the stock's thickness; `holes`: start holes, each once; `passes`: along
+    contours. `parts`: what the areas, the holes and the passes come to, None: without prices, or without a thickness
+    that they want. `is_without`: so do the prices, or the rates.
+    """
 
     thickness: float | None
     areas: tuple[int, ...]

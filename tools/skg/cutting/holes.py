@@ -34,7 +34,7 @@ def holes_file(routes: Sequence[PlannedContour], thickness: float | None, name: 
 
 
 def findings(routes: Sequence[PlannedContour], thickness: float | None, name: str) -> list[Finding]:
-    """What the drilling program has that nobody told."""
+    """Report the depth and the feed that the drilling program assumes."""
     if name.lower().endswith(CSV) or thickness is None:
         return []
     depth = thickness + OVER

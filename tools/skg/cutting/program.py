@@ -195,7 +195,7 @@ def parts_of(route: PlannedContour) -> Iterator[RoutePart]:
 
 
 class _Elsewhere(NamedTuple):
-    """What is written behind a point, a circle and an angle of a part of which copies are cut elsewhere."""
+    """The suffixes of a point, a circle and an angle in a part that is copied."""
 
     point: str = ""
     circle: str = ""

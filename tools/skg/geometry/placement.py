@@ -1,4 +1,4 @@
-"""Where a drawing lies on the machine: mirrored, turned, scaled and moved, and back."""
+"""The placement of a drawing on the machine: mirrored, turned, scaled and moved; and the way back."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from math import atan2, cos, radians, sin
 
 import numpy as np
 
+from skg.geometry.arrays import Floats
 from skg.geometry.contour import Contour, CurveNode, Edge
 from skg.geometry.plane import XY
 
@@ -51,7 +52,7 @@ class Placement:
 
     @cached_property
     def scale(self) -> float:
-        """How many times as long a length is then."""
+        """The factor of lengths."""
         a, _, c, _ = self.matrix
         return abs(a or c) if not (a and c) else abs(self._determinant) ** 0.5
 
@@ -72,6 +73,10 @@ class Placement:
         x, y = place[0] - self.origin[0], place[1] - self.origin[1]
         return a * x + b * y + self.at[0], c * x + d * y + self.at[1]
 
+    def places(self, places: Floats) -> Floats:
+        """Places, a row of x and y for each."""
+        return (places - self.origin) @ np.reshape(self.matrix, (2, 2)).T + self.at
+
     def direction(self, angle: float) -> float:
         """A direction angle, radians."""
         a, b, c, d = self.matrix
@@ -85,7 +90,7 @@ class Placement:
         start = self.place(edge.start)
         samples = edge.samples
         if len(samples):
-            samples = (samples - self.origin) @ np.reshape(self.matrix, (2, 2)).T + self.at
+            samples = self.places(samples)
         return replace(
             edge,
             start=start,

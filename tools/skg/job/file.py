@@ -195,10 +195,10 @@ def over(tables: Tables, setup: Tables) -> dict[str, dict[str, Any]]:
     wire and gap."""
     merged = {table: dict(keys) for table, keys in tables.items()}
     for table, keys in setup.items():
-        said = merged.setdefault(table, {})
+        own = merged.setdefault(table, {})
         instead = {"offset": ("wire", "gap"), "wire": ("offset",)} if table == "machine" else {}
-        beaten = {beaten for key in said for beaten in instead.get(key, ())}
-        merged[table] = {key: value for key, value in keys.items() if key not in beaten} | said
+        beaten = {beaten for key in own for beaten in instead.get(key, ())}
+        merged[table] = {key: value for key, value in keys.items() if key not in beaten} | own
     return merged
 
 
@@ -330,7 +330,7 @@ def _told(value: object) -> str:
 def to_data(job: Job) -> dict[str, Any]:
     """The job as plain data: what is not said is left out."""
     usual = made({key: {} for key in _PARTS if key != "default"})
-    said = {
+    tables = {
         key: {name: value for name, value in vars(getattr(job, key)).items() if value != getattr(part, name)}
         for key, part in usual.items()
     } | {"default": job.default.said()}
@@ -338,7 +338,7 @@ def to_data(job: Job) -> dict[str, Any]:
         "schema": SCHEMA,
         "drawing": job.drawing,
         **{key: value for key in ("sha256", "box", "starts") if (value := _plain(getattr(job, key)))},
-        **{key: {name: _plain(value) for name, value in said[key].items()} for key in TABLES if said[key]},
+        **{key: {name: _plain(value) for name, value in tables[key].items()} for key in TABLES if tables[key]},
         **_lists(job),
     }
 

@@ -1,4 +1,4 @@
-"""Where the part lies on the machine: what becomes its zero, turned, mirrored, scaled; and copies of it."""
+"""The place of the part on the machine: its zero, turn, mirror and scale; and copies of it."""
 
 from __future__ import annotations
 

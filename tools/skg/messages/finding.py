@@ -4,9 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self, TypeVar
 
 from skg.messages.severity import Severity, severity_of
+
+#: A function of places, mm.
+_Move = Callable[[tuple[float, float]], tuple[float, float]]
+#: Names of values that are a place, of those that are places, and of pairs that are a place.
+_PLACE, _PLACES, _PAIRS = frozenset({"place", "start", "end"}), "places", (("x", "y"), ("u", "v"))
 
 #: What writes a phrase in this process's language: `render` puts it here, which the package imports.
 written: list[Callable[[Phrase], str]] = []
@@ -33,6 +38,14 @@ class Phrase:
     def __getitem__(self, name: str) -> Any:  # noqa: ANN401
         """A value by its name."""
         return dict(self.values)[name]
+
+    def moved(self, to: _Move) -> Self:
+        """The same with all its places elsewhere, those of its parts too."""
+        values = {name: _moved(name, value, to) for name, value in self.values}
+        for x, y in _PAIRS:
+            if x in values and y in values:
+                values[x], values[y] = to((values[x], values[y]))
+        return _replaced(self, values=tuple(values.items()))
 
 
 @dataclass(frozen=True, init=False)
@@ -71,9 +84,26 @@ class Finding(Phrase):
         """The same, about a contour."""
         return _replaced(self, contour=contour, place=place)
 
+    def moved(self, to: _Move) -> Self:
+        """The same with all its places elsewhere, those of its parts too."""
+        return _replaced(super().moved(to), place=self.place and to(self.place))
 
-def _replaced(finding: Finding, **fields: object) -> Finding:
-    made = object.__new__(Finding)
-    for name, value in (vars(finding) | fields).items():
+
+_P = TypeVar("_P", bound=Phrase)
+
+
+def _replaced(phrase: _P, **fields: object) -> _P:
+    made = object.__new__(type(phrase))
+    for name, value in (vars(phrase) | fields).items():
         object.__setattr__(made, name, value)
     return made
+
+
+def _moved(name: str, value: Any, to: _Move) -> Any:  # noqa: ANN401
+    if isinstance(value, Phrase):
+        return value.moved(to)
+    if not isinstance(value, tuple):
+        return value
+    if name in _PLACE:
+        return to(value)
+    return tuple(map(to, value)) if name == _PLACES else tuple(_moved("", item, to) for item in value)

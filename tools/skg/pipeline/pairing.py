@@ -17,7 +17,7 @@ from skg.messages.finding import Finding, Phrase
 from skg.planning.nesting import Nesting
 
 PUNCH, DIE = "punch", "die"
-#: Why a contour is not cut for one of both.
+#: The reason of a contour that is cut for the other one alone.
 OTHER = Phrase("reason-other-of-pair")
 #: Findings on sides and tabs that a punch, or a die, has on purpose.
 _MEANT = {
@@ -35,7 +35,7 @@ def named(member: str) -> Phrase:
 
 
 def ending_of(member: str, is_short: bool) -> str:
-    """What the names of its files have before their endings; `is_short`: where they have eight letters."""
+    """The suffix of its files' names, before their endings; `is_short`: where these have eight letters."""
     return f"-{member[0].upper() if is_short else member}" if member else ""
 
 
@@ -47,7 +47,7 @@ def file_name(name: str, ending: str) -> str:
 
 
 def members(wanted: Sequence[Wanted], nesting: Nesting) -> tuple[str, ...]:
-    """What is cut of a drawing: a punch and its die, where a closed contour has a clearance; else "", the part. A
+    """The members of a drawing: a punch and its die, where a closed contour has a clearance; else "", the part. A
     clearance without such a contour is a `UserError`."""
     asked = [number for number, want in enumerate(wanted) if want.cut and want.clearance is not None]
     if not asked:

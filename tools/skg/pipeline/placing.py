@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
-from typing import Any, overload
+from typing import Any
 
 import numpy as np
 
@@ -20,11 +20,6 @@ from skg.messages.finding import Finding, Phrase
 from skg.planning.copies import Pattern
 from skg.planning.nesting import Nesting
 from skg.reading.read import FARTHEST
-
-#: Values of a message that are a place, and that are places.
-_PLACE, _PLACES = frozenset({"place", "start", "end"}), frozenset({"places"})
-#: Pairs of values that are a place.
-_PAIRS = (("x", "y"), ("u", "v"))
 
 
 def placement_of(place: Place, cut: Sequence[Contour], shift: XY) -> Placement:
@@ -50,11 +45,9 @@ def placement_of(place: Place, cut: Sequence[Contour], shift: XY) -> Placement:
     return made
 
 
-def pattern_of(copies: Copies, placement: Placement, cut: Sequence[Contour]) -> Pattern | None:
-    """The copies on the machine, None: the part alone. `cut`: the contours that are cut, as they are drawn; copies that
-    would lie too far away are a `UserError`."""
-    if copies.count == 1:
-        return None
+def pattern_of(copies: Copies, placement: Placement, cut: Sequence[Contour]) -> Pattern:
+    """The copies on the machine. `cut`: the contours that are cut, as they are drawn; copies that would lie too far
+    away are a `UserError`."""
     pattern = Pattern(copies, placement.place(copies.about or (0.0, 0.0)))
     boxes, _ = boxes_of([placement.contour(contour) for contour in cut])
     (left, low), (right, top) = boxes[:, :2].min(0).tolist(), boxes[:, 2:].max(0).tolist()
@@ -88,35 +81,9 @@ def placed_wanted(wanted: Wanted, is_closed: bool, placement: Placement) -> Want
     return replace(wanted, tabs=tabs, side=side, start=start, entry=entry)
 
 
-@overload
-def as_drawn(finding: Finding, placement: Placement) -> Finding: ...
-@overload
-def as_drawn(finding: Phrase, placement: Placement) -> Phrase: ...
-def as_drawn(finding: Phrase, placement: Placement) -> Phrase:
+def as_drawn(finding: Finding, placement: Placement) -> Finding:
     """A message on what is on the machine, with the places of the drawing."""
-    if placement.is_nothing:
-        return finding
-    back = placement.back.place
-    values = {name: _value(name, value, placement) for name, value in finding.values}
-    for x, y in _PAIRS:
-        if x in values and y in values:
-            values[x], values[y] = back((values[x], values[y]))
-    if not isinstance(finding, Finding):
-        return Phrase(finding.code, **values)
-    place = values.pop("place", finding.place and back(finding.place))
-    return Finding(finding.code, contour=finding.contour, place=place, **values).within(*finding.source)
-
-
-def _value(name: str, value: Any, placement: Placement) -> Any:  # noqa: ANN401
-    if isinstance(value, Phrase):
-        return as_drawn(value, placement)
-    if name in _PLACE and isinstance(value, tuple):
-        return placement.back.place(value)
-    if name in _PLACES:
-        return tuple(map(placement.back.place, value))
-    if isinstance(value, tuple):
-        return tuple(_value("", item, placement) for item in value)
-    return value
+    return finding if placement.is_nothing else finding.moved(placement.back.place)
 
 
 @contextmanager

@@ -94,7 +94,7 @@ class DrawnJob:
         }
 
     def placement(self, job: Job) -> Placement:
-        """Where the drawing lies on the machine; a `UserError` where that is too far away."""
+        """The placement of the drawing on the machine; a `UserError` where it would lie too far away."""
         # (most drawings lie where they are drawn, and nobody waits to hear which contours these are)
         cut = [] if job.place == Place() else self._cut(job)
         return placing.placement_of(job.place, cut, self.matches.shift)

@@ -117,7 +117,7 @@ def refuse_near(pattern: Pattern, contours: Sequence[Contour], kerf: float, may_
     shapes = _outside(contours)
     boxes, _ = boxes_of(contours)
     whole = shapely.box(*boxes[:, :2].min(0), *boxes[:, 2:].max(0))
-    wholes = np.array([_moved(whole, placement) for placement in pattern.placements])
+    wholes = np.array([shapely.transform(whole, placement.places) for placement in pattern.placements])
     firsts, seconds = shapely.STRtree(wholes).query(wholes, predicate="dwithin", distance=kerf + _TOUCH)
     seen: set[XY | int] = set()
     for first, second in zip(firsts.tolist(), seconds.tolist(), strict=True):
@@ -125,7 +125,7 @@ def refuse_near(pattern: Pattern, contours: Sequence[Contour], kerf: float, may_
         if first >= second or way in seen:
             continue
         seen.add(way)
-        one, other = (_moved(shapes, pattern.placements[number]) for number in (first, second))
+        one, other = (shapely.transform(shapes, pattern.placements[number].places) for number in (first, second))
         gap = float(shapely.distance(one, other))
         if gap <= _TOUCH or gap < kerf - _TOUCH and not may_gouge:
             (x, y), (u, v) = shapely.get_coordinates(shapely.shortest_line(one, other)).tolist()
@@ -138,7 +138,7 @@ def refuse_near(pattern: Pattern, contours: Sequence[Contour], kerf: float, may_
 
 
 def _way(pattern: Pattern, first: int, second: int) -> XY | int:
-    """What is the same of all pairs of copies that lie alike to each other."""
+    """The key of a pair of copies: two pairs of the same key lie alike."""
     if pattern.copies.around > 1:
         return second - first
     (row, column), (other_row, other) = (divmod(number, pattern.copies.columns) for number in (first, second))
@@ -157,9 +157,3 @@ def _outside(contours: Sequence[Contour]) -> shapely.Geometry:
 
 def _finely(edge: Edge) -> list[XY]:
     return edge.points() if edge.is_line or edge.nodes else edge.parted(edge.chords(_FINE))
-
-
-def _moved(shape: shapely.Geometry, placement: Placement) -> shapely.Geometry:
-    return shapely.transform(
-        shape, lambda places: (places - placement.origin) @ np.reshape(placement.matrix, (2, 2)).T + placement.at
-    )

@@ -21,16 +21,16 @@ _MEASURED = 5
 def tightest(routes: Mapping[int, PlannedContour], none: Mapping[int, NoRoom]) -> tuple[int, float | None]:
     """The contour with the least room of some that the wire does not get around, and how far the wire may be beside
     it, mm; None when that is not looked for."""
-    found: tuple[int, float] | None = None
+    least: tuple[int, float] | None = None
     for number, no_room in none.items():
-        if found and not found[1]:
+        if least and not least[1]:
             break
         if no_room.is_crossing:
             return number, 0.0
         contour, r = routes[number].contour, routes[number].widest
-        if len(contour.edges) <= _MANY and (found is None or not _fits(contour, copysign(found[1], r))):
-            found = number, widest(contour, r)
-    return found or (next(iter(none)), None)
+        if len(contour.edges) <= _MANY and (least is None or not _fits(contour, copysign(least[1], r))):
+            least = number, widest(contour, r)
+    return least or (next(iter(none)), None)
 
 
 def _fits(contour: Contour, r: float) -> bool:
@@ -62,14 +62,14 @@ def _leaves_edges_out(route: PlannedContour) -> bool:
 
 def _sharp(routes: Sequence[PlannedContour]) -> list[Corner]:
     """Corners of contours that are cut as they are."""
-    found = [Corner(*corner, route) for route in routes if (corner := sharpest(route.contour, route.offset))]
-    found.sort(key=lambda corner: -corner.far)
-    for number, (_, _, route) in enumerate(found[:_MEASURED]):
+    sharp = [Corner(*corner, route) for route in routes if (corner := sharpest(route.contour, route.offset))]
+    sharp.sort(key=lambda corner: -corner.far)
+    for number, (_, _, route) in enumerate(sharp[:_MEASURED]):
         with suppress(NoRoom):
             wire = route.rung.wire
             path = wire.paths[-1] if wire else wire_way(route.contour, route.offset)
-            found[number] = Corner(*uncut(route.contour, path, route.offset), route)
-    return found
+            sharp[number] = Corner(*uncut(route.contour, path, route.offset), route)
+    return sharp
 
 
 def _passed(routes: Sequence[PlannedContour]) -> list[Corner]:

@@ -151,7 +151,10 @@ def _near_origin(reading: Reading) -> Reading:
     if max(map(abs, (*report.low, *report.high))) < FARTHEST:
         return reading
     by = -floor(report.low[0]), -floor(report.low[1])
-    report.findings = [*(_moved(finding, by) for finding in report.findings), Finding("moved-near", by=by)]
+    report.findings = [
+        *(finding.moved(lambda place: shifted(place, by)) for finding in report.findings),
+        Finding("moved-near", by=by),
+    ]
     report.overlaps = [replace(overlap, place=shifted(overlap.place, by)) for overlap in report.overlaps]
     reading.fates.by = by
     for entity in reading.fates.entities:
@@ -179,18 +182,6 @@ def _near_origin(reading: Reading) -> Reading:
         "noted": replace(reading.noted, by=by),
     }
     return replace(reading, contours=contours, starts=starts, others=others, opened=opened, **seen)
-
-
-def _moved(finding: Finding, by: XY) -> Finding:
-    """A finding with its places elsewhere."""
-    values = dict(finding.values)
-    for name in ("start", "end"):
-        if name in values:
-            values[name] = shifted(values[name], by)
-    if "places" in values:
-        values["places"] = tuple(shifted(place, by) for place in values["places"])
-    place = finding.place and shifted(finding.place, by)
-    return Finding(finding.code, contour=finding.contour, place=place, **values)
 
 
 def layer_lines(data: bytes, name: str, wishes: Wishes) -> tuple[list[str], list[Finding]]:

@@ -58,9 +58,9 @@ def repaired(edges: Sequence[Edge], wishes: Wishes) -> Repaired:
     for kind, asked in (("corner", wishes.corners), ("bridge", wishes.bridges)):
         for x, y, u, v in asked:
             places = shifted((x, y), result.by), shifted((u, v), result.by)
-            found = ends.pair(*places)
+            pair = ends.pair(*places)
             make = _corner if kind == "corner" else _bridge
-            if found is None or not make(result, *found):
+            if pair is None or not make(result, *pair):
                 result.findings.append(lost(kind, (x, y)))
     return result
 
@@ -85,8 +85,8 @@ class _Ends:
         return None if far > FOUND or self.places[one] == self.places[other] else (self.of[one], self.of[other])
 
     def moved(self, asked: Sequence[tuple[float, float, float, float]]) -> XY:
-        """How far the drawing was moved, if no repair finds its ends where they were and there is one way to where most
-        do."""
+        """The way that the drawing was moved, mm: where no repair finds its ends, the one way on which most do, else 0,
+        0."""
         if not asked or any(self.pair(each[:2], each[2:]) for each in asked):
             return 0.0, 0.0
         x, y, u, v = asked[0]
@@ -94,12 +94,12 @@ class _Ends:
         seconds = shapely.points(places + (u - x, v - y))
         ones = np.unique(self.tree.query(seconds, predicate="dwithin", distance=_ALIKE)[0])
         ways = {(round(bx, 3), round(by, 3)): (bx, by) for bx, by in (places[ones] - (x, y)).tolist()}
-        found = {
+        counts = {
             way: sum(self.pair(shifted(each[:2], way), shifted(each[2:], way)) is not None for each in asked)
             for way in list(ways.values())[:_MOST_ENDS]
         }
-        most = max(found.values(), default=0)
-        best = [way for way, count in found.items() if count == most]
+        most = max(counts.values(), default=0)
+        best = [way for way, count in counts.items() if count == most]
         return best[0] if len(best) == 1 else (0.0, 0.0)
 
 
@@ -209,13 +209,13 @@ def _common(one: Edge, other: Edge) -> Iterator[XY]:
 
 def without_strays(runs: Sequence[Contour], places: Iterable[XY]) -> tuple[list[int], list[tuple[XY, int | None]]]:
     """The numbers of the runs that are left, and of each place the run that lies there, None if there is none."""
-    found: list[tuple[XY, int | None]] = []
+    lying: list[tuple[XY, int | None]] = []
     for place in places:
         near = [(min(edge.far(place) for edge in run.edges), number) for number, run in enumerate(runs)]
         far, number = min(near, default=(2 * FOUND, -1))
-        found.append((place, number if far <= FOUND else None))
-    gone = {number for _, number in found}
-    return [number for number in range(len(runs)) if number not in gone], found
+        lying.append((place, number if far <= FOUND else None))
+    gone = {number for _, number in lying}
+    return [number for number in range(len(runs)) if number not in gone], lying
 
 
 def possible(opened: Sequence[Contour], ends: Sequence[OpenEnd]) -> list[Repair]:

@@ -118,7 +118,7 @@ def drawing(drawn: DrawnJob) -> dict[str, Any]:
 
 
 def _repairs(report: Account) -> list[dict[str, Any]]:
-    """What may be asked for to close outlines, the smallest of each kind first; what is asked is as the job has it."""
+    """The repairs that may be asked for, the smallest of each kind first; `asked`: as the job has it."""
     count: Counter[str] = Counter()
     repairs = []
     for repair in report.repairs:
@@ -238,8 +238,8 @@ def _values(want: Wanted, is_slug: bool) -> str:
 
 
 def lying(placement: Placement, pattern: Pattern | None) -> dict[str, Any]:
-    """Where the part lies on the machine, in the places of the drawing: `zero`, what is 0, 0, and the ways that x and y
-    run there; `copies`: of each but the first one the matrix (a, b, c, d, x, y) that takes the part there."""
+    """The part on the machine, in the places of the drawing: `zero`, what is 0, 0, and the ways that x and y run there;
+    `copies`: of each but the first one the matrix (a, b, c, d, x, y) that takes the part there."""
     back = placement.back
     zero = back.place((0.0, 0.0))
     ends = back.place((1.0, 0.0)), back.place((0.0, 1.0))

@@ -14,7 +14,7 @@ export class Cutting {
   readonly #desk: Desk;
   readonly #server: Server;
   #rev: number | undefined;
-  /** What was cut, if this page began it. */
+  /** The run, if this page began it. */
   #cut = "";
   /** The run that is followed: its number on the server. */
   run: number | undefined;

@@ -126,7 +126,7 @@ export function withTables(before: Edited, keys: Readonly<Record<string, readonl
 /** The job's lists of repairs. */
 const REPAIRS = { bridge: "bridges", corner: "corners", stray: "strays" } as const;
 
-/** What was asked for to close outlines. */
+/** The repairs that were asked for. */
 export const repairsOf = ({ job }: Edited, kind: Repair["kind"]): readonly (readonly number[])[] =>
   (job.read?.[REPAIRS[kind]] ?? []) as readonly (readonly number[])[];
 

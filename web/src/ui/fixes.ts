@@ -10,7 +10,7 @@ import { find, type Word, w } from "./words.ts";
 
 export interface Fix {
   readonly label: string;
-  /** What it is called where the label beside another button is too short for it. */
+  /** A shorter label, for where it stands beside another button. */
   readonly name?: string;
   /** The places that it is about, which are ringed while it is pointed at. */
   readonly places?: readonly Point[];
@@ -118,7 +118,7 @@ export function fixesOf(desk: Desk, line: Told): Fix[] {
   return [...fixes, { label: w("fixLeave"), act: () => wish({ cut: false }) }];
 }
 
-/** What closes the outline at the place of a line of the report, and all places like it; a line that is none is left. */
+/** The repairs that close the outline at the place of a line of the report, and at all places like it; none for other lines. */
 function repairs(desk: Desk, { place }: Told, kinds: typeof KINDS): Fix[] {
   const known = (desk.state?.repairs ?? []).filter((repair) => !isRepaired(desk.edited, repair));
   const far = ({ places }: Repair): number =>

@@ -39,12 +39,12 @@ export class Saving {
     this.#server = server;
   }
 
-  /** What is asked for once: another drawing, or another form of its tape, is asked for anew. */
+  /** The drawing and the form of its tape that name and style are asked for: once for each. */
   get #subject(): string {
     return JSON.stringify([this.#desk.state?.name, this.#desk.edited.job.tape ?? {}]);
   }
 
-  /** What was asked for, else what the job has. */
+  /** Name and style that were asked for, else those of the job. */
   get #wanted(): Named {
     if (this.#asked === this.#subject) return this.#named;
     const { style = "punch", short_name: short = false } = this.#desk.edited.job.tape ?? {};

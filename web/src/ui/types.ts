@@ -154,7 +154,7 @@ export interface Note {
   readonly up: Point;
 }
 
-/** What may be asked for to close outlines: a line between two ends, two ends to where they cross, a line that is left.
+/** A repair that may be asked for: a line between two ends, two ends to where they cross, a line that is left.
  * `places`: the ends; `asked`: what the job has then; `size`, mm. */
 export interface Repair {
   readonly kind: "bridge" | "corner" | "stray";
