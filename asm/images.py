@@ -53,8 +53,8 @@ class Image:
     def for_cpm(self, tape: str) -> Image:
         """The same firmware as a program of CP/M; `tape` says of what type a tape's file is."""
         return replace(
-            self, map="map_cpm", restarts=False, ports=("io_cpm",), punch=("nohold", "io_disk"), start=("cpm",),
-            more=(*self.more, tape), words=(*self.words, "cpm"), forms=(".com",),
+            self, map="map_cpm", restarts=False, ports=("io_cpm",), punch=("nohold", "letgo", "io_disk"),
+            start=("cpm",), more=(*self.more, tape), words=(*self.words, "cpm"), forms=(".com",),
         )  # fmt: skip
 
 
@@ -63,7 +63,7 @@ STANDARD = "skg"
 #: No handshake, where room is short.
 UNHELD = {
     "ports": ("ports_2sio", "io_6850", "io_port"),
-    "punch": ("nohold", "io_punch", "io_reader", "io_ended"),
+    "punch": ("nohold", "letgo", "io_punch", "io_reader", "io_ended"),
 }
 
 
@@ -103,7 +103,7 @@ IMAGES = {
         spans=("notol",),
         more=("drive",),
         words=("drive",),
-        start=("reset", "keep_none"),
+        start=("reset",),
     ),
     "skg-ram": Image(forms=(".hex",)),
     "skg.com": Image().for_cpm("type_3b"),

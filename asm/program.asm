@@ -1,7 +1,7 @@
 ; program.asm - the lines of the program: how they are kept, their numbers, LIST
-; Offers: STORE FINDLN PLINE LOADDE SUMREC VARSUM LINENO OPTLN LNEND SLIST
+; Offers: STORE FINDLN PLINE LOADDE SUMREC SUMON LINENO OPTLN LNEND SLIST
 ; Uses:   [punch] float lexer monitor parser start value
-; Room:   290 bytes
+; Room:   265 bytes
 ;
 ; A program line: length of the record, line number (low byte first), tokens, 00, a byte
 ; that makes the sum of all 0 (checked at reset).  A zero length ends the program; PEND->
@@ -133,28 +133,12 @@ LOADDE: MOV     E,M
 ; In:  HL-> bytes, A = how many   Out: A = 0 less their sum; HL behind; B = 0   Clobbers nothing else
 SUMREC: MOV     B,A
         XRA     A
-SUMR1:  SUB     M               ; (VARSUM goes on with its sum here)
+; SUMON - goes on with a sum (keep.asm)
+; In:  HL-> bytes, B = how many (0: 256), A = what the sum is taken from   Out: as SUMREC   Clobbers nothing else
+SUMON:  SUB     M
         INX     H
         DCR     B
-        JNZ     SUMR1
-        RET
-
-; VARSUM - check sum of the variables, to VSUM
-; Out: Z when it is the same as last time, HL-> VSUM   Clobbers A, B, C
-VARSUM: LHLD    VBOT
-        XRA     A
-        SUB     L
-        MOV     B,A             ; to the end of the page
-VARS1:  CALL    SUMR1           ; then whole pages: B = 0
-        MOV     C,A
-        LDA     VTOP+1
-        INR     A
-        CMP     H
-        MOV     A,C
-        JNZ     VARS1
-        LXI     H,VSUM
-        CMP     M
-        MOV     M,A
+        JNZ     SUMON
         RET
 
 ; LINENO - takes a line number

@@ -43,6 +43,8 @@ HOOKS = {
     "CHKED": "restart 7: the monitor stores the line or carries it out",
     "BDPUN": "the teletype's characters go to the punch too: the board's",
     "BDRDY": "the prompt is there: the board's",
+    "LETGO": "a line of the program begins: the board's, which may still be following a block",
+    "KEEP": "reset: what it leaves of program and variables",
     "ERLOST": "a line has lost a character: the monitor says so",
     "READY": "the reader has stopped: the prompt",
     "PUNOFF": "a block is complete: the board's, which may follow it",

@@ -1,6 +1,6 @@
 ; run.asm - statements are carried out one after the other: RUN, END, GOTO, IF, GOSUB, RETURN; NEW, and how a run starts
 ; Offers: STMT SRETN SGOSUB SIF SGOTO SRUN DIRECT STEND SNEW NEWPRG CLEAR FRESH CLRPTR
-; Uses:   [post] [punch] calc data ends monitor parser program start
+; Uses:   [more] [post] [punch] calc data ends monitor parser program start
 ; Room:   259 bytes
 
 ;! STTEND-STTAB == 2*(TLETR-TFROM) -- an address for every word from FROM on

@@ -1,12 +1,11 @@
 ; nohold.asm - nobody is held: a line that lost characters is refused
-; Offers: LISTEN LETGO ENDLIN LEXTOK LINGAP
+; Offers: LISTEN ENDLIN LEXTOK LINGAP
 ; Uses:   decimal io start
 ; Room:   0 bytes
 
-; LISTEN - looks for a break before a character is waited for.  LETGO - the same while a program runs
+; LISTEN - looks for a break before a character is waited for
 ; In, Out: as BREAK
 LISTEN  EQU BREAK
-LETGO   EQU BREAK
 
 ; ENDLIN - the line has come
 ; Clobbers A

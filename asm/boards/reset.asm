@@ -1,5 +1,5 @@
 ; reset.asm - what a board does that is alone with the ROM: reset, SAVE to the punch
-; Offers: RESET SSAVE BDRDY
+; Offers: RESET SSAVE
 ; Uses:   [more] [punch] [start] calc io monitor program start
 ; Room:   60 bytes
 
@@ -34,7 +34,3 @@ SSAVE:  CALL    PUNON           ; (also when it is only parsed: nothing is print
         MVI     A,CEOF
         DB      PUTC
         JMP     PUNOFF
-
-; BDRDY - what a board does at the prompt
-; Out: HL-> VSUM   Clobbers A, B, C
-BDRDY   EQU     VARSUM

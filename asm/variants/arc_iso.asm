@@ -5,7 +5,7 @@
 
 ; ARC - the tool goes along the circle C to K
 ; In:  C, K, W; t3 negative when it is more than half a turn
-; Out: W = V; ERR 03 without a feed, ERR 10   Clobbers all
+; Out: W = V; ERR 10   Clobbers all
 ARC:    DB      CALC,QVK        ; -
         DB      LC0,QRND,LWX,QSUB,QDUP,SA0 ; x  a = from the start to the centre
         DB      Q1000,QDIV,QRND,SBX ; -         (I: no more digits than any place)

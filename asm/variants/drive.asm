@@ -1,7 +1,7 @@
 ; drive.asm - the board follows the blocks itself, and steps two motors (drive.md)
-; Offers: PUNOFF BDPUN SDRIV DNEW BDOFF BDREST
+; Offers: PUNOFF LETGO BDPUN SDRIV DNEW BDOFF BDRDY KEEP BDREST
 ; Uses:   [ports] [post] [punch] [start] decimal ends io monitor program run start value
-; Room:   696 bytes
+; Room:   673 bytes
 ;
 ; Text is the one way in: DRIVE gives each character of the reader to DPUSH, RUN each one that it punches. DPUSH
 ; goes on in the middle of DLINE, which knows what may come, and has left its place in DPARS.  So a line is
@@ -149,6 +149,12 @@ DCAR1:  DCR     L
 ; PUNOFF - punch off, the block is complete: the place for a break; after DRIVE 1 a running program's is followed
 ; Out: ERR 10, also when it was stopped   Clobbers all
 PUNOFF: CALL    PAPON
+; (fall into LETGO)
+
+; LETGO - a line of the program begins, before anything of it is done: looks for a break; after DRIVE 1 the rest of a
+;         block that was stopped comes first, and what was read ahead of a tape is forgotten
+; Out: ERR 10, also when it was stopped   Clobbers all
+LETGO:  CALL    BREAK
         CALL    DASKED
         RZ
 ; (fall into DFIN)
@@ -516,22 +522,27 @@ DENDS:  CALL    DFIN
 ; (fall into BDOFF)
 
 ; BDOFF - after an error and at a program tape's end: no more lines from the reader; the machine is off
-; Out: A = 0   Clobbers HL
+; Out: A = 0   Clobbers nothing else
 BDOFF:  LDA     NXTP+1
         ORA     A
         JZ      BDOFF1
-        LXI     H,DSTATE        ; a program's tape is broken off: what runs next begins with cutting,
-        MVI     M,0
-        DCX     H
-        DCX     H               ; -> DPARS
-        MOV     A,M
-        CPI     DSYN8&255
-        JNZ     BDOFF1
-        MVI     M,0             ; and of a D that waited for the rest of a block nothing is left
-BDOFF1: XRA     A
-        STA     LOADF
+        XRA     A
+        STA     DSTATE          ; a program's tape is broken off: what runs next begins with cutting
+BDOFF1: STA     LOADF
         OUT     DRIVE
         RET
+
+; BDRDY - at the prompt: the machine is off (a subroutine of a program may end in mid-tape)
+; Out: HL-> VSUM   Clobbers A
+BDRDY:  XRA     A
+        OUT     DRIVE
+        LXI     H,VSUM
+        RET
+
+; KEEP - what a reset leaves of program and variables: nothing
+; In:  HL -> last byte of RAM   Out: VTOP   Clobbers all
+KEEP:   SHLD    VTOP
+        JMP     NEWPRG
 
 ; BDREST - what is readied at reset besides the serial ports (the machine's port is cleared by the reset itself); goes to RESET
 BDREST: XRA     A

@@ -2,7 +2,7 @@
 ; Offers: RFEED RCUTZ RTRAVZ RSETZ RGNUM RUNCEL RUNLEN HOME UP DOWN REPOS ENTER MOVE GXY PUTNUM STOP
 ;         PUNDS BLOCK
 ; Uses:   [post] calc consts decimal float geom io lexer parser round start value
-; Room:   329 bytes
+; Room:   323 bytes
 ;
 ; The tool stands at W in the plane and at the height WZ, the move goes to V (arcs: arc_iso.asm) or to
 ; the height VZ; all in whole um.  At the beginning of a tape W and WZ are a number that no place is, so
@@ -51,7 +51,7 @@ UP:     CALL    TAPE0
         JMP     DOWN1
 
 ; DOWN - to the cutting height, when there has been a Z
-; Out: ERR 03 without a feed   Clobbers all
+; Clobbers all
 DOWN:   LXI     D,RCUTZ
         MVI     A,1
 DOWN1:  STA     RGNUM           ; (UP comes in here with A = 0)
@@ -87,14 +87,17 @@ OVER:   CALL    UP
 
 ; ENTER - the tool goes to the start hole, down, and to the route's beginning
 ; In:  H, K, W   Out: G = A = K, W = V; ERR 03 without a feed   Clobbers all
-ENTER:  DB      CALC,LKX,SGX,LKY,SGY,QEND ; -
+ENTER:  LDA     RFEED
+        ORA     A
+        JZ      ERUNS           ; (before anything is done; no block cuts but in a route that was entered, and in a hole)
+        DB      CALC,LKX,SGX,LKY,SGY,QEND ; -
         CALL    OVER
         CALL    DOWN
         DB      CALC,LGX,LGY,QTOK,QEND ; -
 ; (fall into MOVE)
 
 ; MOVE - a straight cut
-; In:  K, W   Out: A = K, W = V; ERR 03 without a feed   Clobbers all
+; In:  K, W   Out: A = K, W = V   Clobbers all
 MOVE:   MVI     A,1
 ; MOVEG - the same with A = number of G   Clobbers all
 MOVEG:  STA     RGNUM
@@ -106,8 +109,7 @@ MOVEG:  STA     RGNUM
 ; (fall into GXY)
 
 ; GXY - the block of a move in the plane
-; In:  RGNUM, V; C = 2: X and Y; 4: I and J too, BX and BY   Out: W = V; ERR 03 without a feed
-; Clobbers all
+; In:  RGNUM, V; C = 2: X and Y; 4: I and J too, BX and BY   Out: W = V   Clobbers all
 GXY:    PUSH    B
         CALL    GBLOCK
         DB      CALC,LVX,SWX,LVY,SWY,QEND ; -
@@ -160,14 +162,8 @@ GLETS:  DB      "XYIJ"
 GLETZ:  DB      "Z"
 
 ; GBLOCK - begins a block with G
-; In:  RGNUM   Out: ERR 03 when it cuts without a feed   Clobbers all
-GBLOCK: LDA     RGNUM
-        SUI     1
-        SBB     A               ; not 0: a rapid
-        LXI     H,RFEED
-        ORA     M
-        JZ      ERUNS
-        CALL    BLOCK
+; In:  RGNUM   Clobbers all
+GBLOCK: CALL    BLOCK
         MVI     A,CLTG
         DB      PUTC
         LDA     RGNUM

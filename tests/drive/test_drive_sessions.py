@@ -22,9 +22,8 @@ SESSIONS = int(os.environ.get("SKG_SESSIONS", "40"))
 RUNS = re.compile(r"RUN|GOTO|GOSUB|RETURN|IF")
 #: A whole line of a tape: what is wrong breaks off in a block.
 WHOLE = re.compile(r"^(?:DD?|B\d+B\d+B\d+G[XY](?:L|[NS]R)[1-4])(?=\r)", re.M)
-#: What takes minutes to step, the statement that this image has not, what waits for an answer, and a subroutine: one
-#: that is called from the prompt may end there in the middle of a tape.
-LEFT_OUT = re.compile(r"\d{5}|TOL|INPUT|GOSUB")
+#: What takes minutes to step, the statement that this image has not, what waits for an answer.
+LEFT_OUT = re.compile(r"\d{5}|TOL|INPUT")
 #: Cycles after which the operator breaks in: in a block, at a D, between two; and when nothing ends by itself.
 MOMENTS = (300_000, 3_000_000, 20_000_000, 60_000_000)
 
@@ -37,7 +36,13 @@ def lines_of(random: Random) -> list[str]:
             pass
         return line
 
-    starts = ["RUN", "RUN", "RUN 30", "RETURN", *(f"GOTO {number}" for number in NUMBERS)]
+    starts = [
+        "RUN",
+        "RUN",
+        "RUN 30",
+        "RETURN",
+        *(f"GO{how} {number}" for number in NUMBERS for how in ("TO", "TO", "SUB")),
+    ]
     typed = [
         random.choice(
             (
@@ -56,10 +61,7 @@ def lines_of(random: Random) -> list[str]:
 
 
 def work(board: Driver, line: str, random: Random) -> tuple[bool, str]:
-    """Type a line, press a key at each D, or break in at some moment: whether the line came to its end; the paper.
-
-    (A block that waited for the rest of another one when the operator broke in is lost: the next tape is error 10.)
-    """
+    """Type a line, press a key at each D, or break in at some moment: whether the line came to its end; the paper."""
     start = board.machine.printed
     whole, left = (
         True,
@@ -98,8 +100,7 @@ def test_what_runs_is_followed_from_its_start() -> None:
             where = f"session {number} of {SEED}: {lines[: at + 1]}"
             assert board.steps == wanted[: len(board.steps)], where
             assert not whole or board.steps == wanted, where
-            # (a block that waits for the rest of another one is lost when that breaks off again)
-            rest = (rest if len(board.steps) < len(rest) else wanted)[len(board.steps) :]
+            rest = wanted[len(board.steps) :]
             followed += 1
             broken += not whole
             behind += was_broken
@@ -123,3 +124,33 @@ def test_a_stop_while_a_d_waits_for_the_rest_of_a_block() -> None:
     assert begun < 30000
     board.go("GOTO 30")
     assert board.steps[begun:] == board.steps[begun:30000] + follow(board.tape[before:].decode())
+
+
+def test_stopped_again_in_the_rest_of_a_block() -> None:
+    """GOTO behind a stop: nothing of its line is done before the rest of that block, however often it is stopped."""
+    board = Driver()
+    board.load("10 FROM O\n20 CUT O,(30,0),(30,1)\n30 FROM (3,3)\n40 CUT (3,3),(4,3),(4,6)\n50 BACK\n")
+    board.go("DRIVE 1")
+    board.machine.type("RUN\r")
+    board.machine.run(3_000_000)
+    board.stop()
+    for _ in range(3):
+        begun, before = len(board.steps), len(board.tape)
+        board.machine.type("GOTO 40\r")
+        board.machine.run(1_000_000)
+        assert board.stop().endswith("ERR 10 LINE 40\r\n>")
+        assert begun < len(board.steps) < 30000 and len(board.tape) == before
+    assert "ERR" not in board.go("GOTO 40")
+    tape = board.tape[before:].decode()
+    assert tape.count("G") == 5
+    assert board.steps == b"\x81" * 30000 + follow(tape)
+
+
+def test_a_subroutine_that_ends_in_the_middle_of_a_tape() -> None:
+    """At the prompt behind a direct GOSUB the machine is off; the next one goes on as the tape says."""
+    board = Driver()
+    board.load("10 CUT O,(2,0),(2,1)\n20 RETURN\n30 FROM (3,3)\n40 RETURN\n50 END\n")
+    board.go("DRIVE 1")
+    for call in ("GOSUB 10", "GOSUB 30", "GOSUB 10", "GOTO 50"):
+        board.go(call)  # (which looks at the port)
+    assert board.steps == follow(board.tape.decode()) and board.steps

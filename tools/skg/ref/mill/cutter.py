@@ -38,6 +38,8 @@ class MillCutter(Cutter):
 
     def _emit(self, segment: Segment) -> None:
         if segment.role == "entry":
+            if self.tape.feed is None:
+                raise Fault(Code.NO_VALUE)
             self._rapid(self.from_point)
             self.tape.lower()
         super()._emit(segment)

@@ -107,9 +107,8 @@ class IsoPunch(Punch):
             self.height = self.cutting
 
     def _cut(self, words: str, feed: Real | None) -> None:
-        """A block that cuts; with an F where that differs from the last one, error 3 without any."""
-        if feed is None:
-            raise Fault(Code.NO_VALUE)
+        """A block that cuts; with an F where that differs from the last one."""
+        assert feed is not None, "no route is entered and no hole drilled without an F"
         if self.punched is None or not real.nearly_equal(feed, self.punched):
             words += f"F{decimal(feed)}"
         self.block(words)
