@@ -102,7 +102,7 @@ def same_mark(a: list[str], b: list[str]) -> bool:
     The firmware marks where the word ends, the reference where it begins. Of a fillet that cannot stand the reference
     marks the radius, the firmware the end of the item that shows it.
     """
-    if a[:-2] != b[:-2] or a[-1] != b[-1] or a[-2].strip() != "^":
+    if not same_paper(a[:-2], b[:-2]) or a[-1] != b[-1] or a[-2].strip() != "^":
         return False
     word = a[-3][b[-2].index("^") : a[-2].index("^") + 1]
     fillet = "CUT" in a[-3].upper() and FILLET.fullmatch(word)

@@ -63,7 +63,7 @@ def corners(p: Point, t: Point, q: Point, u: Point) -> tuple[Point, Point]:
     along = v.dot(t + u)
     below = along + real.mp.sqrt(along**2 + 2 * max(1 - t.dot(u), real.ZERO) * v.dot(v))
     near.note("backward tangents", below / v.length(), BACKWARDS)
-    if below <= NEARLY * v.length():
+    if below <= NEARLY:
         raise Fault(Code.GEOMETRY)
     d = v.dot(v) / below
     return p + t * d, q - u * d

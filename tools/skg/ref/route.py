@@ -106,17 +106,22 @@ class Segment:
 @dataclass(frozen=True)
 class Element:
     """A curve of the route that has been entered, at `start` as offset; `drawn`: the corner there as drawn, without
-    its fillet."""
+    its fillet; `between`: a line that two points have brought in."""
 
     nominal: Curve
     offset: Real
     curve: Curve
     start: Point
     drawn: Point
+    between: bool = False
 
     def place(self, p: Point) -> Point:
         """A point of the nominal curve as offset."""
         return place(self.nominal, p, self.offset)
+
+    def passing(self, p: Point) -> Line:
+        """A line's path, when the line is moved to pass a point."""
+        return replace(self.nominal, g=self.nominal.normal.dot(p) + self.offset)
 
 
 def offset_curve(nominal: Curve, offset: Real) -> Curve:
@@ -176,6 +181,7 @@ class Route:
     def feed(self, value: Point | Curve, offset: Real, right: bool = False) -> None:
         """The next element, with the R of its statement and the turn that leads to it."""
         if isinstance(value, Point) and self.point is not None and same_point(self.point, value):
+            self.items.append(Item(value))  # (of images, which come last to first, it may be the first of the two)
             return
         right = right or self.right
         self.items.append(Item(value, right, self.fillet))
@@ -222,7 +228,7 @@ class Route:
 
     def _feed_point(self, p: Point, offset: Real) -> None:
         if self.point is not None:
-            self._feed_curve(through(self.point, p), offset, right=False)
+            self._feed_curve(through(self.point, p), offset, right=False, between=True)
         elif self.element is not None:
             if self.fillet is not None:
                 raise Fault(Code.GEOMETRY)
@@ -231,7 +237,7 @@ class Route:
             self.first_point, self.first_point_offset = p, offset
         self.point = p
 
-    def _feed_curve(self, nominal: Curve, offset: Real, right: bool) -> None:
+    def _feed_curve(self, nominal: Curve, offset: Real, right: bool, between: bool = False) -> None:
         if self.point is not None:
             check_on(nominal, self.point)
         elif self.element is not None and self._is_same(self.element, nominal):
@@ -239,18 +245,18 @@ class Route:
             return
         curve = offset_curve(nominal, offset)
         if self.element is None:
-            self._enter(nominal, offset, curve)
+            self._enter(nominal, offset, curve, between)
         else:
             before = self.element
-            self.element = self._go_over(Element(nominal, offset, curve, before.start, before.drawn), right)
+            self.element = self._go_over(Element(nominal, offset, curve, before.start, before.drawn, between), right)
         self.curves += 1
         self.point = None
 
-    def _enter(self, nominal: Curve, offset: Real, curve: Curve) -> None:
+    def _enter(self, nominal: Curve, offset: Real, curve: Curve, between: bool) -> None:
         p = self.point
         start = nearest(curve, self.hole) if p is None else place(nominal, p, offset)
         self.emit(Segment(self.wire, start, "entry"))
-        self.first = self.element = Element(nominal, offset, curve, start, start)
+        self.first = self.element = Element(nominal, offset, curve, start, start, between)
 
     def _is_same(self, entered: Element, nominal: Curve) -> bool:
         """True if a curve goes on along the one that was entered."""
@@ -297,6 +303,8 @@ class Route:
             return e.place(p)
         if near.at_most(real.mp.pi - angle, SAME_WAY, "opposite direction"):
             raise Fault(Code.GEOMETRY)
+        if e.between and f.between:  # both end in p, also where the last point is within 1 µm of the first
+            return crossings(e.passing(p), f.passing(p), ZERO).left
         return _nearest_crossing(crossings(e.curve, f.curve, ZERO), p)
 
     def _fillet(self, e: Element, f: Element, corner: Point, radius: Real) -> tuple[Circle, Point, Point] | None:
@@ -366,7 +374,7 @@ class Route:
             raise Fault(Code.GEOMETRY)
         if self.first_point is not None:
             if self.point is not None and not same_point(self.point, self.first_point):
-                self._feed_curve(through(self.point, self.first_point), self.first_point_offset, right=False)
+                self._feed_curve(through(self.point, self.first_point), self.first_point_offset, False, between=True)
             elif self.point is None:
                 check_on(self.element.nominal, self.first_point)
             if self.fillet is not None:
@@ -387,7 +395,7 @@ class Route:
         """True if the last element written is the first again."""
         first, last = self.items[0].value, self.items[-1].value
         if isinstance(first, Point) or isinstance(last, Point):
-            return isinstance(first, Point) and isinstance(last, Point) and same_point(first, last)
+            return isinstance(first, Point) and isinstance(last, Point) and same_point(first, self.point)
         return self._is_same(self.first, last)
 
     def _close_single(self) -> None:
