@@ -148,6 +148,8 @@ class FittedCurve:
             self.feed(node.point, node.offset)
         elif same_point(self.nodes[-1].point, node.point):
             return
+        else:
+            near.note("short chord", (node.point - self.nodes[-1].point).length(), near.SHORT)
         self.nodes.append(node)
         self._advance(last=False)
 

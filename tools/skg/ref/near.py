@@ -14,6 +14,8 @@ from dataclasses import dataclass
 
 #: Relative distance to a threshold below which a decision is recorded.
 RELATIVE = 1e-6
+#: mm: the direction of what is shorter hangs on the last bits of its ends (to some 10⁻⁶ at 30 mm).
+SHORT = 0.004
 
 
 @dataclass(frozen=True)
@@ -21,8 +23,8 @@ class Near:
     """One close call.
 
     `margin` is the distance to the tie in µm for the kind "rounding", in mm² for "nearest crossing", in
-    radians for "sweep", the sine of the angle for "shallow crossing", and the relative distance to the
-    threshold for every other kind. `line` is the program line, None outside a program.
+    radians for "sweep", the sine of the angle for "shallow crossing", mm for "short chord", and the relative
+    distance to the threshold for every other kind. `line` is the program line, None outside a program.
     """
 
     kind: str

@@ -228,6 +228,7 @@ class Route:
 
     def _feed_point(self, p: Point, offset: Real) -> None:
         if self.point is not None:
+            near.note("short chord", (p - self.point).length(), near.SHORT)
             self._feed_curve(through(self.point, p), offset, right=False, between=True)
         elif self.element is not None:
             if self.fillet is not None:
