@@ -57,6 +57,18 @@ def disk(form: cpm80.DiskFormat) -> bytes:
     return bytes(image.data)
 
 
+def diskdefs() -> str:
+    """The disks' formats as cpmtools reads them, in a file of this name in the folder where it is called."""
+    text = ""
+    for name, form in DISKS.items():
+        track = form.sectors_per_track * RECORD
+        tracks = form.num_blocks * form.block_size // track + form.num_reserved_tracks
+        text += f"diskdef {name}\n  seclen {RECORD}\n  tracks {tracks}\n  sectrk {form.sectors_per_track}\n"
+        text += f"  blocksize {form.block_size}\n  maxdir {form.num_dir_entries}\n  skew 0\n"
+        text += f"  boottrk {form.num_reserved_tracks}\n  os 2.2\nend\n"
+    return text
+
+
 def intel_hex(program: Path) -> str:
     """A program as CP/M's LOAD takes it."""
     spec = importlib.util.spec_from_file_location("asm_build", ROOT / "asm" / "build.py")
@@ -77,6 +89,8 @@ def readme() -> str:
         A/0/                     a folder for RunCPM: the programs and the examples
         wbw_hd1k.img             the same on a disk: a slice of RomWBW's hard disks
         z80mbc2-d1.dsk           a disk of a Z80-MBC2: rename it to DS0N05.DSK, say, on its SD card
+        diskdefs                 these two formats for cpmtools, called in this folder:
+                                 cpmls -f wbw_hd1k wbw_hd1k.img
 
         The examples' names:
         """
@@ -101,6 +115,7 @@ def main() -> None:
         (folder / f"{name.lower()}-cpm.hex").write_text(intel_hex(program), newline="\r\n")
     for name, form in DISKS.items():
         (folder / f"{name}.{'dsk' if 'mbc2' in name else 'img'}").write_bytes(disk(form))
+    (folder / "diskdefs").write_text(diskdefs(), newline="\n")
     (folder / "README.TXT").write_text(readme(), newline="")
 
 

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import importlib.util
+import shutil
+import subprocess
+from pathlib import Path
 
 import pytest
 from cpmhelp import EXAMPLES, PROGRAM, ROOT, Cpm
@@ -21,6 +24,18 @@ def test_a_disk_of_the_release_cuts_an_example(form: str) -> None:
     assert len(cpm.names()) == len(EXAMPLES) + 2
     assert "ERR" not in cpm.type("SKG XYHEXAG2 B:TAPE") and cpm.at_cpm
     assert cpm.read("TAPE.3B", drive=1) == (ROOT / "examples" / "xy-hexagon.3b").read_bytes()
+
+
+@pytest.mark.skipif(not shutil.which("cpmls"), reason="Debian's cpmtools are not installed")
+@pytest.mark.parametrize("form", release.DISKS)
+def test_cpmtools_read_it_by_the_formats_beside_it(form: str, tmp_path: Path) -> None:
+    """Debian's cpmtools know neither of the two."""
+    (tmp_path / "disk").write_bytes(release.disk(release.DISKS[form]))
+    (tmp_path / "diskdefs").write_text(release.diskdefs())
+    listed = subprocess.run(["cpmls", "-f", form, "disk"], cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert set(listed.stdout.lower().split()) - {"0:"} == {name.lower() for name in release.files()}
+    subprocess.run(["cpmcp", "-f", form, "disk", "0:skg.com", "back"], cwd=tmp_path, check=True)
+    assert (tmp_path / "back").read_bytes() == release.files()["SKG.COM"]
 
 
 def test_names_are_whole_and_each_its_own() -> None:
