@@ -138,11 +138,10 @@ class Altair:
                 self.paper += os.read(self.line, 4096)
 
     def press(self, keys: str) -> None:
-        """Type keys, each as soon as the echo of the one before it is there."""
-        for key in keys.encode():
-            start = len(self.paper)
-            os.write(self.line, bytes([key]))
-            self.until(ECHO.get(key, bytes([key])), start)
+        """Type keys, and wait for their echo: SIMH keeps them until the board takes them."""
+        start, echo = len(self.paper), b"".join(ECHO.get(key, bytes([key])) for key in keys.encode())
+        os.write(self.line, keys.encode())
+        self.until(echo, start)
 
     def type(self, line: str) -> str:
         """Types a line and returns the output."""
