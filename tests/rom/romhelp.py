@@ -30,8 +30,9 @@ BOARDS: dict[str, dict[str, Any]] = {
 #: Those with a paper tape: SAVE punches NULs behind each line, as board.md says.
 PAPER_TAPES = ("skg", "skg-8251", "skg-tty")
 EXAMPLES = sorted((ROOT / "examples").glob("*.skg"))
-#: Those that foreign processors and machines run too: each so-many-th, all in `make hunt`.
-SOME_EXAMPLES = EXAMPLES[:: int(os.environ.get("SKG_EVERY", "3"))]
+#: Foreign processors and machines, and other boards, run each so-many-th; all in `make hunt`.
+EVERY = int(os.environ.get("SKG_EVERY", "3"))
+SOME_EXAMPLES = EXAMPLES[::EVERY]
 
 #: A program that is still at work after so many cycles (16 minutes of the 2 MHz board) hangs.
 RUN_LIMIT = 2_000_000_000

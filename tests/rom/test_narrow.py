@@ -1,6 +1,6 @@
 """Narrow parts (narrow.py): what the wire does not fit is error 6 or 7, never a wrong tape; what fits is cut.
 
-3,200 programs; another seed: SKG_SEED=text, more of them: SKG_NARROW=number (`make hunt`: 100,000).
+1,600 programs; another seed: SKG_SEED=text, more of them: SKG_NARROW=number (`make hunt`: 100,000).
 Of the parts that the ROM refuses, so many are tried again without its rule: SKG_LOOSE=1 tries all. One that is right
 then must be refused by the reference, too.
 """
@@ -23,7 +23,7 @@ from skg.ref import run as reference
 
 SEED = os.environ.get("SKG_SEED", "narrow")
 SHARES = range(4)
-PARTS_A_SHARE = int(os.environ.get("SKG_NARROW", "3200")) // len(SHARES)
+PARTS_A_SHARE = int(os.environ.get("SKG_NARROW", "1600")) // len(SHARES)
 #: Of the parts that are refused, each so-many-th runs on the ROM without the rule, too (no translation of it is there).
 LOOSE = int(os.environ.get("SKG_LOOSE", "4"))
 #: Verdicts on tapes that no corner shows to be wrong.
