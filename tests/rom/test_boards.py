@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from romhelp import BLOCK, BOARDS, ROOT, RUN_LIMIT, SOME_EXAMPLES, Board, image, saved_tape
+from test_build import builder
 from test_examples import EXAMPLES, stem
 
 from skg.machine.emulator import Machine
@@ -206,6 +207,7 @@ def test_the_wrong_rom_is_noticed(kind: str, other: str) -> None:
     assert done.returncode == 2 and b"--board" in done.stderr
 
 
+@pytest.mark.xdist_group("images")  # (in one process with test_build.py, which assembles the other image, too)
 @pytest.mark.parametrize("kind", ["skg-searle", "skg-imsai"])
 def test_board_of_ones_own(kind: str, tmp_path: Path) -> None:
     """The examples of boards.md differ from the image that they are made after in the numbers of ports alone."""
@@ -216,7 +218,7 @@ def test_board_of_ones_own(kind: str, tmp_path: Path) -> None:
     texts = build.sources(replace(image, ports=tuple(name for name in image.ports if name != ports)))
     texts = {name: texts.get(name, files.get(name)) for name in image.files()}
     code, symbols, _ = build.assemble(texts, tmp_path)
-    made, theirs, _, _ = build.build(other)
+    made, theirs, _, _ = builder.build(other)
     names = ("TTYST", "TTYDT", "PUNST", "PUNDT")
     port_of = {theirs[name]: symbols[name] for name in names}
     differing = [(a, b) for a, b in zip(made, code, strict=False) if a != b]

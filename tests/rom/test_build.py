@@ -191,6 +191,8 @@ class Line:
     operands: str
 
 
+#: The headers of all images' files.
+every = functools.cache(rooms.every)
 #: The assembler takes a second an image: once for all tests, which stay in one process.
 builder.build = functools.cache(builder.build)
 pytestmark = pytest.mark.xdist_group("images")
@@ -225,6 +227,7 @@ def without_lines(name: str) -> bytes:
     return bytes(image)
 
 
+@functools.cache
 def listed(name: str) -> list[Line]:
     """Lines of the assembler's listing that made bytes."""
     names = "|".join({"DB", "DW", "DS"} | {text.split()[0] for text, _ in OPCODES.values()})
@@ -233,6 +236,7 @@ def listed(name: str) -> list[Line]:
     return [Line(int(m[1], 16), bytes.fromhex(m[2]), m[3], m[4].strip()) for m in found if m]
 
 
+@functools.cache
 def labels(name: str) -> dict[str, int]:
     """Addresses by label, of the image built anew."""
     return symbols(built(name)[".sym"].decode())
@@ -262,7 +266,7 @@ def test_built_anew_it_is_the_same(name: str) -> None:
 @pytest.mark.parametrize("name", VARIANTS)
 def test_room(name: str) -> None:
     """No file is longer than its header allows; where restarts are CALLs that counts for an image's own files."""
-    images = rooms.every()
+    images = every()
     _, names, _, texts = builder.build(name)
     allowed = {file: space for file, room in images[name].items() if (space := rooms.room_of(room)) is not None}
     sizes = {file: size for file, size in builder.bytes_of(texts, names).items() if file in allowed}
@@ -330,13 +334,14 @@ def test_the_same_on_8080_8085_and_z80(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", VARIANTS)
-@pytest.mark.parametrize("opcode", ["JPE", "CPO", "RPE", "DAA"])
-def test_what_differs_is_found(name: str, opcode: str) -> None:
-    """One is planted at the start of the multiplication, which no image is without."""
-    code = next(number for number, (text, _) in OPCODES.items() if text == opcode)
-    at = labels(name)["FMUL"]
-    found = walked(name, {at: bytes([code, 0x00, 0x00])[: OPCODES[code][1]]}).differences()
-    assert [text.split(":")[0] for text in found] == [f"{at:04X} {opcode}"]
+def test_what_differs_is_found(name: str) -> None:
+    """Four are planted at the start of the multiplication, which no image is without, one behind the other."""
+    at, planted, found = labels(name)["FMUL"], b"", []
+    for opcode in ("JPE", "CPO", "RPE", "DAA"):
+        code = next(number for number, (text, _) in OPCODES.items() if text == opcode)
+        found.append(f"{at + len(planted):04X} {opcode}")
+        planted += bytes([code, 0x00, 0x00])[: OPCODES[code][1]]
+    assert [text.split(":")[0] for text in walked(name, {at: planted}).differences()] == found
 
 
 @pytest.mark.parametrize("opcode", [*range(0x08, 0x40, 8), 0xCB, 0xD9, 0xDD, 0xED, 0xFD])
