@@ -6,6 +6,7 @@ environment, so that nothing is fetched; that all of it is named and fits is wha
 
 from __future__ import annotations
 
+import fcntl
 import os
 import shutil
 import subprocess
@@ -35,25 +36,23 @@ def succeed(*command: object, cwd: Path) -> str:
     return done.stdout
 
 
+def build(kind: str, folder: Path, cwd: Path) -> Path:
+    """Build the `sdist` or the `wheel` of the project in `cwd`, as pip does, into a folder."""
+    hook = f"import setuptools.build_meta as b; print(b.build_{kind}({str(folder)!r}))"
+    return folder / succeed(sys.executable, "-c", hook, cwd=cwd).split()[-1]
+
+
 def install(folder: Path) -> None:
     """Build the wheel from the source distribution, far from the project's tree; install it into a new environment."""
-    hook = f"import setuptools.build_meta as b; print(b.build_sdist({str(folder)!r}))"
-    name = succeed(sys.executable, "-c", hook, cwd=ROOT / "tools").split()[-1]
-    pip = [sys.executable, "-m", "pip"]
-    succeed(*pip, "wheel", "-q", "--no-deps", "--no-build-isolation", "-w", folder, folder / name, cwd=folder)
+    # (setuptools writes into the tree: one process after the other)
+    with (ROOT / "build" / "sdist.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        packed = build("sdist", folder, ROOT / "tools")
+    shutil.unpack_archive(packed, folder)
+    wheel = build("wheel", folder, folder / packed.name.removesuffix(".tar.gz"))
     succeed(sys.executable, "-m", "venv", "--without-pip", "env", cwd=folder)
-    wheel = next(folder.glob("*.whl"))
-    succeed(
-        *pip,
-        "--python",
-        folder / "env" / "bin" / "python",
-        "install",
-        "-q",
-        "--no-deps",
-        "--no-index",
-        wheel,
-        cwd=folder,
-    )
+    pip = [sys.executable, "-m", "pip", "--python", folder / "env" / "bin" / "python"]
+    succeed(*pip, "install", "-q", "--no-deps", "--no-index", wheel, cwd=folder)
     inside = next((folder / "env" / "lib").glob("python3*")) / "site-packages"
     # What the package depends on, but not this environment's own skg: that one is found through a .pth file.
     (inside / "lent.pth").write_text(sysconfig.get_path("purelib"))
