@@ -22,6 +22,7 @@ from ezdxf.document import Drawing
 from facthelp import says
 from toolhelp import Run
 
+from skg.checking import check_drawn
 from skg.checking.check_drawn import NEAR, Named, off_drawn
 from skg.geometry.contour import Contour, Edge
 from skg.geometry.plane import XY
@@ -306,3 +307,21 @@ def test_what_is_compared_with_the_file() -> None:
         assert off_drawn(cut, drawn, {0: False}, []).off == pytest.approx(off, rel=1e-3)
         excused = off_drawn(cut, drawn, {0: False}, [Named(place, size)]).off
         assert excused <= NEAR if size != 0.02 else excused > NEAR
+
+
+def test_only_what_is_off_is_held_against_what_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A large drawing has many places and many repairs: each pair of them would be asked for."""
+    asked: list[int] = []
+
+    def are_named(places: np.ndarray, named: list[Named]) -> np.ndarray:
+        asked.append(len(places))
+        return np.ones(len(places), bool)
+
+    monkeypatch.setattr(check_drawn, "_are_named", are_named)
+    square = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)]
+    drawn = list(contour(*square).edges)
+    assert off_drawn([contour((0.0, NEAR / 2), *square[1:])], drawn, {0: False}, []).off == pytest.approx(NEAR / 2)
+    assert sum(asked) == 0
+    assert off_drawn([contour((0.0, 4 * NEAR), *square[1:])], drawn, {0: False}, []).off <= NEAR
+    # (two edges of four lead to the corner, each off along three quarters of its length, 0.05 mm from place to place)
+    assert 250 < sum(asked) < 700

@@ -59,7 +59,10 @@ def off_drawn(
     ]
     off, place = 0.0, (0.0, 0.0)
     for places, far, near in parts:
-        far = np.where((far > near) & _are_named(places, named) | (near == _TWICE) & (far <= near), 0.0, far)
+        far = np.where((near == _TWICE) & (far <= near), 0.0, far)
+        # (few places are off, and many may be named)
+        doubted = np.flatnonzero(far > near)
+        far[doubted[_are_named(places[doubted], named)]] = 0.0
         worst = int(far.argmax())
         if far[worst] > off:
             off, place = float(far[worst]), (float(places[worst, 0]), float(places[worst, 1]))
