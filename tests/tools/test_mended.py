@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from itertools import pairwise
 from math import cos, hypot, pi, sin
 from pathlib import Path
@@ -25,9 +26,11 @@ from toolhelp import Run
 from skg.checking import check_drawn
 from skg.checking.check_drawn import NEAR, Named, off_drawn
 from skg.geometry.contour import Contour, Edge
+from skg.geometry.pieces import Pieces
 from skg.geometry.plane import XY
 from skg.messages.finding import Phrase
 from skg.reading.chain import chain
+from skg.reading.curves import conic
 
 Report = dict[str, Any]
 #: The tape may be so far from the file where nothing is said, mm; what is measured here is so exact.
@@ -325,3 +328,30 @@ def test_only_what_is_off_is_held_against_what_is_named(monkeypatch: pytest.Monk
     assert off_drawn([contour((0.0, 4 * NEAR), *square[1:])], drawn, {0: False}, []).off <= NEAR
     # (two edges of four lead to the corner, each off along three quarters of its length, 0.05 mm from place to place)
     assert 250 < sum(asked) < 700
+
+
+def test_a_curve_that_is_entered_is_compared_where_it_is_another_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A contour has it in two; only chords that the drawing has not are measured."""
+    drawn = conic((0.0, 0.0), (10.0, 0.0), (0.0, 4.0), 0.0, 2 * pi, 0.002, 0)
+    k = len(drawn.nodes) // 2
+    middle = drawn.nodes[k].point
+    (at,) = np.flatnonzero((drawn.samples == middle).all(1)).tolist()
+    begin = replace(drawn, end=middle, nodes=drawn.nodes[: k + 1], samples=drawn.samples[: at + 1])
+    rest = replace(drawn, start=middle, nodes=drawn.nodes[k:], samples=drawn.samples[at:])
+    moved = rest.samples.copy()
+    moved[20] += 0.02
+    measured: list[int] = []
+    nearest = Pieces.nearest
+    monkeypatch.setattr(
+        Pieces, "nearest", lambda self, places, *more: measured.append(len(places)) or nearest(self, places, *more)
+    )
+    for edges, off, least, most in (
+        ((rest, begin), 0.0, 0, 0),
+        ((rest.reversed(), begin.reversed()), 0.0, 0, 0),
+        ((replace(rest, samples=moved), begin), 0.02, 4, 50),
+        ((begin, Edge(middle, drawn.start, entity=0)), np.inf, 200, 2000),
+    ):
+        measured.clear()
+        found = off_drawn([Contour(edges, True)], [drawn], {0: False}, []).off
+        assert found == pytest.approx(off, rel=0.5), edges
+        assert least <= sum(measured) <= most

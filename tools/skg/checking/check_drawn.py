@@ -53,9 +53,9 @@ def off_drawn(
     known, kept = {_form(edge) for edge in edges}, {_form(edge) for edge in cut}
     there = [edge for edge in edges if edge.entity in whole and _form(edge) not in kept]
     parts = [
-        *_far_off([edge for edge in cut if _form(edge) not in known], edges, NEAR),
-        *_far_off([edge for edge in there if not whole[edge.entity]], cut, NEAR),
-        *_far_off([edge for edge in there if whole[edge.entity]], cut, _TWICE),
+        *_far_off(_apart([edge for edge in cut if _form(edge) not in known], edges), edges, NEAR),
+        *_far_off(_apart([edge for edge in there if not whole[edge.entity]], cut), cut, NEAR),
+        *_far_off(_apart([edge for edge in there if whole[edge.entity]], cut), cut, _TWICE),
     ]
     off, place = 0.0, (0.0, 0.0)
     for places, far, near in parts:
@@ -102,7 +102,30 @@ def _form(edge: Edge) -> tuple:
     return (*sorted((edge.start, edge.end)), edge.centre, edge.sweep if ahead else -edge.sweep)
 
 
-def _far_off(some: list[Edge], others: list[Edge], near: float) -> Iterator[tuple[Floats, Floats, float]]:
+def _apart(some: list[Edge], others: list[Edge]) -> list[Edge | Floats]:
+    """Some edges without what others have of them: of a curve the rows of places whose chords are not theirs. (where a
+    contour is entered it has a curve in two)"""
+    theirs = {chord for edge in others if edge.nodes for chord in _chords(edge)} if some else set()
+    result: list[Edge | Floats] = []
+    for edge in some:
+        if not edge.nodes:
+            result.append(edge)
+            continue
+        own = np.array([chord not in theirs for chord in _chords(edge)])
+        ends = np.flatnonzero(np.diff(own, prepend=False, append=False)).tolist()
+        result += [edge.samples[begin : end + 1] for begin, end in zip(ends[::2], ends[1::2], strict=True)]
+    return result
+
+
+def _chords(edge: Edge) -> list[bytes]:
+    """The chords of a curve, each the same for a curve that is run through backwards."""
+    one, other = edge.samples[:-1], edge.samples[1:]
+    ahead = (one[:, 0] < other[:, 0]) | (one[:, 0] == other[:, 0]) & (one[:, 1] < other[:, 1])
+    rows = np.where(ahead[:, None], np.hstack((one, other)), np.hstack((other, one)))
+    return rows.view(f"V{rows.itemsize * 4}").ravel().tolist()
+
+
+def _far_off(some: list[Edge | Floats], others: list[Edge], near: float) -> Iterator[tuple[Floats, Floats, float]]:
     """Places on some edges, how far they are from the nearest of others, mm, and what of that is near."""
     if not some:
         return
@@ -114,8 +137,8 @@ def _far_off(some: list[Edge], others: list[Edge], near: float) -> Iterator[tupl
         yield places, far, near
 
 
-def _pieces(edges: list[Edge]) -> Pieces:
-    return Pieces((edge.samples if edge.nodes else edge, 0) for edge in edges)
+def _pieces(edges: Sequence[Edge | Floats]) -> Pieces:
+    return Pieces((edge.samples if isinstance(edge, Edge) and edge.nodes else edge, 0) for edge in edges)
 
 
 def _are_named(places: Floats, named: Sequence[Named]) -> Flags:
