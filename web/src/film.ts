@@ -1,6 +1,7 @@
 /** The drawing as a picture for the clipboard, and the walk as a short film, in what the browser can record. */
 import { saveFile } from "./files.ts";
 import { say } from "./message.ts";
+import type { Layout } from "./placed.ts";
 
 /** A film's length and how long its end is shown, ms; frames a second. */
 const [LENGTH, END, RATE] = [6000, 1000, 30];
@@ -11,7 +12,11 @@ export interface Filmed {
   picture(onto?: HTMLCanvasElement): HTMLCanvasElement;
   /** Puts the wire at a part of its way, 0 to 1, and draws it. */
   at(part: number): void;
+  /** What is drawn: another one is another tape. */
+  readonly layout: Layout;
 }
+
+let isFilming = false;
 
 /** Copies the picture; where the browser refuses that, it is a file. */
 export async function copyPicture({ picture }: Pick<Filmed, "picture">, name: string): Promise<void> {
@@ -27,12 +32,15 @@ export async function copyPicture({ picture }: Pick<Filmed, "picture">, name: st
 
 /** Records the wire's way from its start hole to its end, and saves it. */
 export async function film(filmed: Filmed, name: string): Promise<void> {
+  if (isFilming) return;
   const kind = globalThis.MediaRecorder && KINDS.find((each) => MediaRecorder.isTypeSupported(each));
   if (!kind) {
     say("noFilm");
     return;
   }
+  isFilming = true;
   say("filming", LENGTH / 1000);
+  const { layout } = filmed;
   filmed.at(0);
   const canvas = filmed.picture();
   const recorder = new MediaRecorder(canvas.captureStream(RATE), { mimeType: kind, videoBitsPerSecond: 4_000_000 });
@@ -44,15 +52,22 @@ export async function film(filmed: Filmed, name: string): Promise<void> {
   await new Promise<void>((done) => {
     const frame = (): void => {
       const passed = performance.now() - began;
-      filmed.at(Math.min(1, passed / LENGTH));
-      filmed.picture(canvas);
-      if (passed < LENGTH + END) requestAnimationFrame(frame);
+      if (filmed.layout === layout) {
+        filmed.at(Math.min(1, passed / LENGTH));
+        filmed.picture(canvas);
+      }
+      if (filmed.layout === layout && passed < LENGTH + END) requestAnimationFrame(frame);
       else done();
     };
     frame();
   });
   recorder.stop();
   await isOver;
+  isFilming = false;
+  if (filmed.layout !== layout) {
+    say("filmBroken", name);
+    return;
+  }
   const ending = kind.startsWith("video/webm") ? "webm" : "mp4";
   saveFile(`${name}.${ending}`, new Blob(pieces, { type: kind }));
   say("filmed", `${name}.${ending}`);

@@ -33,6 +33,7 @@ const WORDS = {
   film: ["Film of the wire", "电极丝动画"],
   filming: ["Recording {0} s of film…", "正在录制 {0} 秒动画…"],
   filmed: ["{0} is saved.", "{0} 已保存。"],
+  filmBroken: ["Another tape came: there is no film of {0}.", "换了纸带：{0} 的动画没有录成。"],
   noFilm: ["This browser cannot record films.", "此浏览器不能录制动画。"],
   copyEmbed: ["Copy embed code", "复制嵌入代码"],
   settings: ["Settings", "设置"],

@@ -168,7 +168,7 @@ async function begin(): Promise<void> {
     (error: unknown) => say("noWalk", String(error)),
   );
   await Promise.all([reading, walking]);
-  const { isOpened, fault } = await opening.link(location.hash, last?.draft ?? last?.program);
+  const { isOpened, fault } = await opening.link(location.hash, last?.draft ?? last?.program, last?.about?.link);
   addEventListener("hashchange", () => void opening.link(location.hash).then(({ fault }) => fault?.()));
   if (!isOpened && !last && !isEmbedded) welcome.begin(opening);
   fault?.();

@@ -44,18 +44,19 @@ export class Opening {
     this.#bench.editor.tip = { line, column: row.indexOf(before + number) + before.length, text: t("change", number) };
   }
 
-  /** Follows the address' `#…`; `there`: the program that is in the machine, which stays when it is the link's. What is wrong
-   * with the link is told; `isOpened`: it has led to a program. */
-  async link(hash: string, there?: string): Promise<{ isOpened: boolean; fault?: () => void }> {
+  /** Follows the address' `#…`; `there`: the program that is in the machine, which stays when it is the link's, also where the
+   * machine lists it in other letters (`link`: the one that it came from). What is wrong with the link is told; `isOpened`: it
+   * has led to a program. */
+  async link(hash: string, there?: string, link?: string): Promise<{ isOpened: boolean; fault?: () => void }> {
     if (hash.length < 2) return { isOpened: false };
-    let link: Link;
+    let read: Link;
     try {
-      link = await readLink(hash);
+      read = await readLink(hash);
     } catch (error) {
       if (!(error instanceof LinkError)) throw error;
       return { isOpened: false, fault: () => say("badLink") };
     }
-    const { program, run, part: name = "", lesson, lessons } = link;
+    const { program, run, part: name = "", lesson, lessons } = read;
     if (lessons !== undefined) await this.#course.open(t("lessons"), lessons, lesson);
     else if (lesson !== undefined) await this.#course.begin(lesson);
     if (lesson !== undefined || lessons !== undefined) return { isOpened: true };
@@ -63,7 +64,7 @@ export class Opening {
     const part = this.parts.find((each) => each.name === name);
     const wanted = program ?? part?.program;
     if (wanted === undefined) return { isOpened: false, ...(name ? { fault: () => say("badPart", name) } : {}) };
-    if (there !== undefined && (there === wanted || there === part?.listed)) this.#bench.linked = there;
+    if (there !== undefined && (link === hash || there === wanted || there === part?.listed)) this.#bench.linked = there;
     else if (program !== undefined) await this.#open(program, { run, isLinked: true });
     else if (part) this.part(part, run, true);
     return { isOpened: true };

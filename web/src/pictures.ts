@@ -81,7 +81,11 @@ export class Pictures {
   /** What may be filmed: the drawing, and the wire on its way. */
   get filmed(): Filmed {
     const { drawing, plate } = this;
+    const recording = this.#recording;
     return {
+      get layout() {
+        return recording.layout;
+      },
       picture: (onto) => drawing.picture(plate.steel.floor, onto),
       at: (part) => this.#walkBar?.at(part),
     };

@@ -1,12 +1,11 @@
 /** The machine as the page has it: what it does now, the program in it, its paper, and what is kept of it. */
 import type { Look, Punched } from "./board.ts";
 import { ErrorLines } from "./errorline.ts";
-import type { Origin } from "./identity.ts";
 import { Machine } from "./machine.ts";
 import type { Images, Refused, Speed, State } from "./runner.ts";
 import { Keys, type Strange } from "./signs.ts";
 import type { Move } from "./stepper.ts";
-import { fromBase64, type Kept, type Store, toBase64 } from "./store.ts";
+import { type About, fromBase64, type Kept, type Store, toBase64 } from "./store.ts";
 import type { Teletype } from "./teletype.ts";
 
 const CTRL_C = 3;
@@ -43,7 +42,7 @@ export class Session {
   /** The text in the editor, where it is not the program. */
   draft: string | undefined;
   /** The identity of what is written. */
-  about: { work?: string | undefined; origin?: Origin | undefined } = {};
+  about: About = {};
 
   /** Without a store nothing is kept. */
   constructor(worker: string | URL, teletype: Teletype, store: Store | undefined, hooks: Hooks) {

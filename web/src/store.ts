@@ -13,8 +13,14 @@ export interface Kept {
   paper: string;
   /** A text in the editor that is not in the machine. */
   draft?: string;
-  /** The work that is written, and the file that it came from. */
-  about?: { work?: string | undefined; origin?: Origin | undefined };
+  about?: About;
+}
+
+/** The work that is written, the file that it came from, the address' link while the program is seen as it came from there. */
+export interface About {
+  work?: string | undefined;
+  origin?: Origin | undefined;
+  link?: string | undefined;
 }
 
 export type Theme = "auto" | "light" | "dark";

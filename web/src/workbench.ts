@@ -124,7 +124,8 @@ export class Workbench {
       this.linked = undefined;
       history.replaceState(null, "", location.pathname + location.search);
     }
-    this.session.about = { work: this.#around.works.present, origin: this.origin };
+    const link = this.linked === undefined ? undefined : location.hash;
+    this.session.about = { work: this.#around.works.present, origin: this.origin, link };
     get("revert").hidden = !this.isDirty;
     const parameters = parametersOf(this.editor.text).map((each) => ({ ...each, label: labelOf(each.label) }));
     showParameters(get("parameters"), parameters, (at, value) => this.#set(at, value));

@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { existsSync, readFileSync } from "node:fs";
 import { after, before, describe, test } from "node:test";
+import { pack } from "../src/link.ts";
 import {
   AXE,
   begin,
@@ -93,12 +94,14 @@ describe("seen at a glance", { skip: existsSync(CHROMIUM) ? false : "chromium is
       return [fault, lines].map((one) => one?.getBoundingClientRect().right ?? 0) as [number, number];
     });
     assert.ok(left > 0 && left <= right, `${left} ${right}`);
-    // a link stays in the address while its program is seen, and goes with the first change
-    await page.evaluate(() => (location.hash = "#part=die&run"));
-    await says(page, "#made", "Die: the wire inside");
+    // a link stays in the address while its program is seen, also one that was written in other letters than the machine's, and
+    // goes with the first change
+    const hash = `#z=${await pack("10 rem mine\n20 d=5.0\n30 cut o,(d,0)\n40 end\n")}&run`;
+    await page.evaluate((hash) => (location.hash = hash), hash);
+    await says(page, "#made", "mine");
     await wholeTape(page);
     await prompt(page);
-    assert.equal(await page.evaluate(() => location.hash), "#part=die&run");
+    assert.equal(await page.evaluate(() => location.hash), hash);
     await page.click("#terminal");
     await page.keyboard.type("I=42\r");
     await page.waitForFunction(() => /I=42/.test(localStorage.getItem("skg:/some/folder/:machine") ?? ""));
@@ -109,7 +112,7 @@ describe("seen at a glance", { skip: existsSync(CHROMIUM) ? false : "chromium is
     await page.click("#terminal");
     await page.keyboard.type("PRINT I\r");
     await onPaper(page, "\n42\n");
-    assert.equal(await page.evaluate(() => location.hash), "#part=die&run", "a reload leaves the machine and the address alone");
+    assert.equal(await page.evaluate(() => location.hash), hash, "a reload leaves the machine and the address alone");
     await page.keyboard.type("5 REM MINE\r");
     await page.waitForFunction(() => location.hash === "");
     await context.close();

@@ -11,6 +11,7 @@ import {
   end,
   hasLines,
   longestTask,
+  message,
   open,
   paste,
   prompt,
@@ -169,6 +170,17 @@ describe("the story", { skip: existsSync(CHROMIUM) ? false : "chromium is not in
     assert.equal(film.subarray(0, 4).toString("hex"), "1a45dfa3");
     assert.ok(film.length > 20_000, `${film.length} bytes`);
     await says(page, "#walked", /^block 29/);
+    // another tape ends the film: it would be neither's
+    const films: string[] = [];
+    page.on("download", (each) => films.push(each.suggestedFilename()));
+    await page.locator("details.menu summary").nth(1).click();
+    await page.click("#film");
+    await message(page, /film/);
+    await page.locator('[data-part="die"]').click();
+    await message(page, /no film of wrench/);
+    await wholeTape(page);
+    await prompt(page);
+    assert.deepEqual(films, []);
     await page.locator("details.menu summary").nth(2).click();
     await page.check("#sound");
     await page.selectOption("#speed", "real");
