@@ -53,13 +53,13 @@ def jobs_as_files(monkeypatch: pytest.MonkeyPatch) -> None:
     plain = steps.plan_drawing
 
     def planned(job: Job, drawn: steps.DrawnJob) -> list[PlannedContour]:
-        routes = plain(job, drawn)
-        if len(routes) <= 200 and crc32(repr(routes).encode()) % EVERY == 0:
+        contours = plain(job, drawn)
+        if len(contours) <= 200 and crc32(repr(contours).encode()) % EVERY == 0:
             again = load(dump(steps.written(job, drawn)), "again")
             whole = steps.open_drawing(again, drawn.data, drawn.name)
             (opened,) = (each for each in steps.members_of(again, whole) if each.member == drawn.member)
-            assert plain(again, opened) == routes
-        return routes
+            assert plain(again, opened) == contours
+        return contours
 
     monkeypatch.setattr(steps, "plan_drawing", planned)
 

@@ -91,9 +91,9 @@ def test_each_pass_has_its_rate_and_its_price(run: Run, tmp_path: Path) -> None:
 def test_money_is_rounded_once_and_adds_up() -> None:
     """Half a cent goes up, whatever binary makes of it; the sum is that of the parts as they are printed."""
     # (two contours that are cut from one hole: it is drilled once)
-    routes = [SimpleNamespace(passes=(0.0,), holes=[(max(0, at), 0)]) for at in range(-1, 5)]
+    contours = [SimpleNamespace(passes=(0.0,), holes=[(max(0, at), 0)]) for at in range(-1, 5)]
     result = SimpleNamespace(
-        machine=MachineSetup(thickness=1.0), routes=routes, checked=SimpleNamespace(lengths=(100.4, 35.0))
+        machine=MachineSetup(thickness=1.0), contours=contours, checked=SimpleNamespace(lengths=(100.4, 35.0))
     )
     cost = Cost.of(result, Price(per_area=(0.01005, 0.0), per_hole=0.201, per_pass=0.001))
     assert cost.areas == (100, 35) and list(map(str, cost.parts)) == ["1.01", "1.01", "0.01"] and cost.price == "2.03"

@@ -289,21 +289,21 @@ def test_wrong_tapes_are_found() -> None:
     corners = [(0.0, 0.0), (20.0, 0.0), (20.0, 10.0), (8.0, 14.0)]
     edges = tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True))
     round_hole = Contour((Edge((13.0, 5.0), (13.0, 5.0), (10.0, 5.0), 2 * pi),), True)
-    routes = plan([Contour(edges, True), round_hole], [], Wanted(offset=0.1))
-    job = make(routes, "part", MachineSetup())
+    contours = plan([Contour(edges, True), round_hole], [], Wanted(offset=0.1))
+    job = make(contours, "part", MachineSetup())
     assert not job.checked.faults and job.checked.off < LIMIT
     wider = plan([Contour(edges, True), round_hole], [], Wanted(offset=0.105))
-    assert {fault.route for fault in check(job.tape, wider, True).faults} == {0, 1}
+    assert {fault.contour for fault in check(job.tape, wider, True).faults} == {0, 1}
     # The slanted edge goes 9 µm too far up, the one after it comes back.
     slanted = re.search(rb"B(\d+)B(\d+)B\1GXL2", job.data)
     bent = job.data.replace(slanted[0], b"B%bB%dB%bGXL2" % (slanted[1], int(slanted[2]) + 9, slanted[1]))
-    faults = check(tapes.parse(bent, "bent"), routes, True).faults
-    assert faults and faults[0].route == 1
+    faults = check(tapes.parse(bent, "bent"), contours, True).faults
+    assert faults and faults[0].contour == 1
     with pytest.raises(UserError, match=pattern(Phrase("wrong-stops"))):
-        check(tapes.parse(job.data.replace(b"D\r\n", b"", 2), "one"), routes, True)
+        check(tapes.parse(job.data.replace(b"D\r\n", b"", 2), "one"), contours, True)
     # It goes 1 um too far up: nowhere off by much, but the wire does not come back to its start hole.
     open_one = job.data.replace(slanted[0], b"B%bB%dB%bGXL2" % (slanted[1], int(slanted[2]) + 1, slanted[1]))
-    checked = check(tapes.parse(open_one, "open"), routes, True)
+    checked = check(tapes.parse(open_one, "open"), contours, True)
     assert not checked.faults
     with pytest.raises(
         UserError,
@@ -311,7 +311,7 @@ def test_wrong_tapes_are_found() -> None:
             Phrase("not-closed", dx=0, dy=1), Phrase("contour-name", turn=2), Phrase("kind-outline", count=1)
         ),
     ):
-        refuse(checked, routes, MachineSetup())
+        refuse(checked, contours, MachineSetup())
 
 
 def test_what_adds_up_on_a_standard_tape_is_said(run: Run, tmp_path: Path) -> None:
@@ -373,12 +373,12 @@ def test_each_pass_keeps_its_own_distance(corner: bytes, cut_short: bytes) -> No
 
     corners = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)]
     square = Contour(tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)), True)
-    routes = plan([square], [(5.0, -3.0)], Wanted(offset=0.1, passes=(0.5, 0.3, 0.0)))
-    job = make(routes, "part", MachineSetup())
+    contours = plan([square], [(5.0, -3.0)], Wanted(offset=0.1, passes=(0.5, 0.3, 0.0)))
+    job = make(contours, "part", MachineSetup())
     assert not job.checked.faults and len(job.checked.cuts) == 2
     corner, cut_short = (blocks.replace(b" ", b"\r\n") for blocks in (corner, cut_short))
     assert job.data.count(corner) == 1
-    faults = check(tapes.parse(job.data.replace(corner, cut_short), "short"), routes, True).faults
+    faults = check(tapes.parse(job.data.replace(corner, cut_short), "short"), contours, True).faults
     assert [(fault.is_into, fault.off > 0.1) for fault in faults] == [(False, True)], faults
 
 
@@ -390,12 +390,12 @@ def test_a_circle_too_many_is_found() -> None:
     from skg.planning.plan import plan
 
     half = Contour((Edge((-5.0, 0.0), (5.0, 0.0)), Edge((5.0, 0.0), (-5.0, 0.0), (0.0, 0.0), pi)), True)
-    routes = plan([half], [], Wanted(offset=0.1))
-    job = make(routes, "part", MachineSetup())
+    contours = plan([half], [], Wanted(offset=0.1))
+    job = make(contours, "part", MachineSetup())
     assert not job.checked.faults
     (arc,) = re.findall(rb"B\d+B\d+B\d+G[XY]NR4\r\n", job.data)
     around = job.data.replace(arc, b"B5099B100B20400GYNR4\r\n" + arc)
-    assert check(tapes.parse(around, "around"), routes, True).faults
+    assert check(tapes.parse(around, "around"), contours, True).faults
 
 
 @pytest.mark.parametrize(
@@ -410,8 +410,8 @@ def test_a_part_in_a_round_opening_is_left_whole(inner: XY, radius: float, is_fr
     def circle(x: float, y: float, r: float) -> Contour:
         return Contour((Edge((x + r, y), (x + r, y), (x, y), 2 * pi),), True)
 
-    routes = plan([circle(0, 0, 10), circle(0, 0, 20), circle(*inner, radius)], [], Wanted(offset=0.1))
-    (opening,) = (way for way in routes if way.is_opening and not way.number)
+    contours = plan([circle(0, 0, 10), circle(0, 0, 20), circle(*inner, radius)], [], Wanted(offset=0.1))
+    (opening,) = (way for way in contours if way.is_opening and not way.number)
     lead = LineString([opening.start, opening.entry])
     assert (opening.start == (0.0, 0.0)) == is_from_centre
     assert Point(0, 0).buffer(10.001, quad_segs=400).covers(lead)
@@ -796,10 +796,10 @@ def test_a_small_round_opening_that_another_crosses(turn: float, offset: float) 
         start = x + r * cos(2 * pi * turn), y + r * sin(2 * pi * turn)
         return Contour((Edge(start, start, (x, y), 2 * pi),), True)
 
-    routes = plan([circle(0, 0, 10), circle(0, 0, 0.5), circle(0.5, 0, 0.2)], [], Wanted(offset=offset))
-    (opening,) = (route for route in routes if route.number == 1)
+    contours = plan([circle(0, 0, 10), circle(0, 0, 0.5), circle(0.5, 0, 0.2)], [], Wanted(offset=offset))
+    (opening,) = (planned for planned in contours if planned.number == 1)
     assert opening.start != (0.0, 0.0)
-    assert not make(routes, "part", MachineSetup()).checked.faults
+    assert not make(contours, "part", MachineSetup()).checked.faults
 
 
 def test_any_size_in_8_kib(run: Run, tmp_path: Path) -> None:
@@ -943,15 +943,15 @@ def test_contours_with_passes_of_their_own(one: tuple[float, ...], other: tuple[
         return Contour(tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)), True)
 
     wanted = [Wanted(offset=0.1, passes=one, tab=tab), Wanted(offset=0.1, passes=other)]
-    routes = plan([square(0, 20), square(40, 10)], [], wanted)
-    made = make(routes, "squares", MachineSetup())
+    contours = plan([square(0, 20), square(40, 10)], [], wanted)
+    made = make(contours, "squares", MachineSetup())
     assert not made.checked.faults and made.checked.off < LIMIT
     for at in (0, 1):
         # (a stop fewer or more would be found before: here a pass is wanted elsewhere)
-        elsewhere = list(routes)
-        elsewhere[at] = replace(routes[at], passes=(*routes[at].passes[:-1], routes[at].passes[-1] + 0.01))
+        elsewhere = list(contours)
+        elsewhere[at] = replace(contours[at], passes=(*contours[at].passes[:-1], contours[at].passes[-1] + 0.01))
         faults = check(tapes.parse(made.data, "squares"), elsewhere, True).faults
-        assert {fault.route for fault in faults} == {at}, faults
+        assert {fault.contour for fault in faults} == {at}, faults
 
 
 def test_the_middles_of_straight_pieces_hide_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -971,8 +971,8 @@ def test_the_middles_of_straight_pieces_hide_nothing(monkeypatch: pytest.MonkeyP
         return Contour((Edge((x + 0.5, y), (x + 0.5, y), (x, y), 2 * pi),), True)
 
     outline = closed((0.0, 0.0), (40.0, 0.0), (40.0, 10.0), (20.0, 10.4), (0.0, 10.0))
-    routes = plan([outline, hole(20.0, 5.0)], [], Wanted(offset=0.1))
-    made = make(routes, "part", MachineSetup())
+    contours = plan([outline, hole(20.0, 5.0)], [], Wanted(offset=0.1))
+    made = make(contours, "part", MachineSetup())
     bottom = re.search(rb"B(\d+)B0+B\1GXL1", made.data) or re.search(rb"B(\d+)B0+B\1GXL3", made.data)
     long = int(bottom[1])
     digit = bottom[0][-1:]
@@ -997,10 +997,10 @@ def test_the_middles_of_straight_pieces_hide_nothing(monkeypatch: pytest.MonkeyP
     def found(data: bytes, wanted: list) -> tuple:
         looked_at.clear()
         checked = check(tapes.parse(data, "part"), wanted, True)
-        faults = [(fault.route, fault.is_into, fault.is_missed) for fault in checked.faults]
+        faults = [(fault.contour, fault.is_into, fault.is_missed) for fault in checked.faults]
         return (faults, len(checked.crossings), round(checked.off, 9)), sum(looked_at)
 
-    cases = [*((data, routes) for data in tapes_of), (made.data, near), (made.data, tilted)]
+    cases = [*((data, contours) for data in tapes_of), (made.data, near), (made.data, tilted)]
     quick = [found(*case) for case in cases]
     for module in (check_distance, check_coverage):
         monkeypatch.setattr(module, "_bare", lambda *_: None)
@@ -1121,13 +1121,13 @@ def test_sheet(tmp_path: Path, size: float, columns: int, kinds: list[str]) -> N
     told = (re.search(r"(\d+) without room", text.get_text()) for text in sheet.axes.texts)
     left_out = next((int(found[1]) for found in told if found), 0)
     assert len(numbers) + left_out == len(contours) and len(numbers) >= min(len(contours), 100)
-    assert len(others) > 5 * len(sheet.result.routes[:300])
+    assert len(others) > 5 * len(sheet.result.contours[:300])
     assert not len(shapely.STRtree(others).query(boxes, "intersects")[0])
     assert min(text.get_fontsize() for text in sheet.axes.texts) >= 5
     marks = [Point(patch.center).buffer(patch.radius) for patch in sheet.axes.patches if patch.get_gid() == "hole"]
     for many in (one for one in sheet.axes.collections if one.get_gid() == "holes"):
         marks += [shapely.Polygon(path.to_polygons()[0]) for path in many.get_paths()]
-    part = [LineString([sheet.on_paper(point) for point in one.contour.points()]) for one in job.routes]
+    part = [LineString([sheet.on_paper(point) for point in one.contour.points()]) for one in job.contours]
     assert len(marks) == len(part) == len(contours)
     for here in (boxes, marks):
         tree = shapely.STRtree(here)
@@ -1192,7 +1192,7 @@ def test_each_number_belongs_to_one_hole(width: float) -> None:
     sheet.draw()
     renderer = FigureCanvasAgg(sheet.figure).get_renderer()
     to_page = sheet.axes.transData.inverted()
-    holes = [Point(sheet.on_paper(route.start)) for route in job.routes]
+    holes = [Point(sheet.on_paper(planned.start)) for planned in job.contours]
     lines = [one.get_path().vertices for one in sheet.axes.get_children() if one.get_gid() == "number-line"]
     assert lines or width < 100
     tied = {min(range(len(holes)), key=lambda at: holes[at].distance(Point(line[0]))) for line in lines}

@@ -90,9 +90,9 @@ def contours_of(edges: list[Edge]) -> list[Contour]:
 def program_of(make: Callable[[], Drawing], offset: float = 0.0, **wishes: object) -> str:
     contours = contours_of(edges_of(make))
     wanted = Wanted(offset=offset, side=str(wishes.get("side", "auto")), reverse=bool(wishes.get("reverse")))
-    routes = plan(contours, content_of(make).starts, wanted)
-    routes = [route.on_rung(has_fillets=bool(wishes.get("fillets", True))) for route in routes]
-    return Program(routes, make.__name__).numbered()
+    planned = plan(contours, content_of(make).starts, wanted)
+    planned = [one.on_rung(has_fillets=bool(wishes.get("fillets", True))) for one in planned]
+    return Program(planned, make.__name__).numbered()
 
 
 def points_along(edges: list[Edge]) -> Iterator[XY]:

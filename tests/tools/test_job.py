@@ -426,7 +426,7 @@ def test_a_circle_is_entered_where_that_is_asked(tmp_path: Path, start: XY, entr
     cut = cut_drawing(job, drawn).result
     x, y = entry[0] - 20, entry[1] - 20
     reach = 10 / (x * x + y * y) ** 0.5
-    assert cut.routes[0].entry == pytest.approx((20 + reach * x, 20 + reach * y), abs=2e-3)
+    assert cut.contours[0].entry == pytest.approx((20 + reach * x, 20 + reach * y), abs=2e-3)
 
 
 def test_a_contour_that_moved_is_said(run: Run, tmp_path: Path) -> None:
@@ -538,7 +538,7 @@ def test_progress_and_wanted(tmp_path: Path) -> None:
     assert [want.cut for want in wanted_of(job, drawn)].count(True) == 1
     steps: list[str] = []
     done = cut_drawing(job, drawn, lambda stage, done, of: steps.append(stage))
-    assert len(done.result.routes) == 1 and steps[0] == "plan"
+    assert len(done.result.contours) == 1 and steps[0] == "plan"
     assert any(line.severity.value == "care" for line in done.findings) is False
     holes, plates = (finding for finding in done.findings if finding.code == "layer-sum")
     assert (holes["layer"], holes["entities"]["count"], holes["parts"]) == (

@@ -217,6 +217,6 @@ def test_what_goes_with_an_opening_that_is_left_out() -> None:
 
     elsewhere, part = rectangle(100, 0, 110, 10, 1), rectangle(-50, -50, 60, 60, 2)
     opening, inner, crossing = rectangle(0, 0, 10, 10, 3), rectangle(1, 1, 2, 2, 4), rectangle(2, 4, 12, 8, 3)
-    routes = dict(enumerate([part, elsewhere, opening, inner, crossing]))
-    assert islands(routes, [1, 2]) == {3: 2}
-    assert islands(routes, [1, 4]) == {} == islands(routes, [])
+    contours = dict(enumerate([part, elsewhere, opening, inner, crossing]))
+    assert islands(contours, [1, 2]) == {3: 2}
+    assert islands(contours, [1, 4]) == {} == islands(contours, [])

@@ -138,11 +138,11 @@ def test_places_of_a_job_are_the_drawings(tmp_path: Path) -> None:
     job = replace(job, contours=chosen)
     drawn = open_drawing(job, data)
     assert decoded(encoded(written(job, drawn)), "job").place == place
-    routes = {route.number: route for route in plan_drawing(job, drawn)}
+    contours = {planned.number: planned for planned in plan_drawing(job, drawn)}
     # (mirrored and turned by a quarter, x and y change places, with their signs: 2 · (2 − y), 2 · (3 − x))
-    assert routes[circle].start == pytest.approx((2 * (2 - 10), 2 * (3 - 13)))
-    assert routes[circle].entry == pytest.approx((2 * (2 - 10), 2 * (3 - 10)))
-    middles = [tab[0].at(0.5) for _, tab in routes[outline].spans]
+    assert contours[circle].start == pytest.approx((2 * (2 - 10), 2 * (3 - 13)))
+    assert contours[circle].entry == pytest.approx((2 * (2 - 10), 2 * (3 - 10)))
+    middles = [tab[0].at(0.5) for _, tab in contours[outline].spans]
     assert sorted(middles) == [pytest.approx((-18, 0), abs=0.01), pytest.approx((0, -40), abs=0.01)]
     assert cut_drawing(job, drawn).result.checked.off < 0.003
     wide = replace(job, contours=(choose(drawn, circle, start=(13.0, 20.0)),))

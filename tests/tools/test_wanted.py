@@ -32,15 +32,15 @@ def plate() -> list[Contour]:
 
 def cut(contours: list[Contour], wanted: list[Wanted]) -> list[int]:
     """The numbers of the contours in the order in which a checked tape cuts them."""
-    return [route.number for route in make(plan(contours, [], wanted), "plate", MachineSetup()).routes]
+    return [planned.number for planned in make(plan(contours, [], wanted), "plate", MachineSetup()).contours]
 
 
 def test_what_is_left_stays_in_the_nesting() -> None:
     """An opening is cut from inside whether its outline is cut or not."""
     wanted = [replace(OFFSET, cut=False), OFFSET, OFFSET, replace(OFFSET, cut=False)]
-    routes = plan(plate(), [], wanted)
-    assert sorted(route.number for route in routes) == [1, 2]
-    assert not any(route.is_outside for route in routes)
+    contours = plan(plate(), [], wanted)
+    assert sorted(planned.number for planned in contours) == [1, 2]
+    assert not any(planned.is_outside for planned in contours)
     assert set(cut(plate(), wanted)) == {1, 2}
 
 
@@ -51,9 +51,9 @@ def test_each_contour_has_its_own_offset_passes_and_tab() -> None:
         replace(OFFSET, offset=0.15),
         replace(OFFSET, offset=0.0),
     ]
-    routes = {route.number: route for route in plan(plate(), [], wanted)}
-    assert [round(r, 9) for r in routes[0].passes] == [0.16, 0.12, 0.1] and routes[0].tabs.length == 2.0
-    assert [routes[at].passes for at in (1, 2, 3)] == [(0.1,), (0.15,), (0.0,)]
+    contours = {planned.number: planned for planned in plan(plate(), [], wanted)}
+    assert [round(r, 9) for r in contours[0].passes] == [0.16, 0.12, 0.1] and contours[0].tabs.length == 2.0
+    assert [contours[at].passes for at in (1, 2, 3)] == [(0.1,), (0.15,), (0.0,)]
 
 
 @pytest.mark.parametrize("place", [(20, 0), (0, 7), (33, 20), (40, 19.99), (0, 0)])
@@ -71,7 +71,7 @@ def test_entry_and_start_hole(place: tuple[float, float]) -> None:
 def test_order() -> None:
     """Wanted places in the order hold; the others keep theirs."""
     holes = [box(0, 0, 40, 20), *(box(4 + 6 * at, 4, 4, 4) for at in range(5))]
-    plain = [route.number for route in plan(holes, [], OFFSET)]
+    plain = [planned.number for planned in plan(holes, [], OFFSET)]
     assert plain == [1, 2, 3, 4, 5, 0]
     wanted = [OFFSET] * 6
     wanted[5], wanted[1] = replace(OFFSET, order=1), replace(OFFSET, order=3)
@@ -93,8 +93,8 @@ def test_order() -> None:
 def test_start_holes_of_the_drawing_go_to_what_is_cut() -> None:
     """A start hole in an opening that is left, or that has its own, goes to none of these."""
     wanted = [replace(OFFSET, cut=False), replace(OFFSET, start=(6.0, 6.0)), OFFSET, replace(OFFSET, cut=False)]
-    routes = {route.number: route for route in plan(plate(), [(21.5, 10.0)], wanted)}
-    assert routes[1].start == (6.0, 6.0) and routes[2].start == (21.5, 10.0)
+    contours = {planned.number: planned for planned in plan(plate(), [(21.5, 10.0)], wanted)}
+    assert contours[1].start == (6.0, 6.0) and contours[2].start == (21.5, 10.0)
     with pytest.raises(UserError, match=pattern(Phrase("too-many-holes", count=2, contours=1))):
         plan(plate(), [(21.5, 10.0), (1.0, 1.0)], wanted)
 
@@ -102,5 +102,5 @@ def test_start_holes_of_the_drawing_go_to_what_is_cut() -> None:
 def test_a_start_hole_goes_to_the_contour_that_comes_nearest() -> None:
     """The middle of a long edge is nearer to it than another contour's corners are."""
     for start in [(20.0, -3.0), (20.0, 23.0), (-3.0, 10.0), (43.0, 10.0)]:
-        routes = plan(plate(), [start], [OFFSET] * 4)
-        assert {route.number: route.start for route in routes}[0] == start
+        contours = plan(plate(), [start], [OFFSET] * 4)
+        assert {planned.number: planned.start for planned in contours}[0] == start

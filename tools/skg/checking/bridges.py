@@ -27,43 +27,43 @@ _AROUND = 1.0
 
 
 class Fallen(NamedTuple):
-    """A tab that holds nothing: of which route, its place."""
+    """A tab that holds nothing: of which contour, its place."""
 
-    route: int
+    contour: int
     place: XY
 
 
-def fallen(path: WirePath, cuts: Sequence[Stretch], routes: Sequence[PlannedContour]) -> Iterator[Fallen]:
+def fallen(path: WirePath, cuts: Sequence[Stretch], contours: Sequence[PlannedContour]) -> Iterator[Fallen]:
     """The tabs that the wire has cut, or cut off, before it comes to them."""
     firsts = np.cumsum([0, *(cut.blocks.stop - cut.blocks.start for cut in cuts)])
     stretches: dict[int, list[tuple[Stretch, slice]]] = {}
     for cut, first, last in zip(cuts, firsts, firsts[1:], strict=False):
-        if routes[cut.route].tabs.each:
-            stretches.setdefault(cut.route, []).append((cut, slice(int(first), int(last))))
+        if contours[cut.contour].tabs.each:
+            stretches.setdefault(cut.contour, []).append((cut, slice(int(first), int(last))))
     for number, some in stretches.items():
-        route = routes[number]
-        aside = max(abs(r) for r in route.offsets) + LIMIT
+        planned = contours[number]
+        aside = max(abs(r) for r in planned.offsets) + LIMIT
         before: list[shapely.Geometry] = []
         by_tab: list[list[shapely.Geometry]] = []
         for cut, pieces in some:
             wire = shapely.union_all(lines_of(path.pieces.some(np.arange(pieces.start, pieces.stop))))
-            if cut.passes[0] == len(route.passes):
+            if cut.passes[0] == len(planned.passes):
                 by_tab.append([])
             (by_tab[-1] if by_tab else before).append(wire.buffer(aside, quad_segs=16))
         up_to_tabs = shapely.union_all(before)
-        for turn, tab in enumerate(route.tab_order):
+        for turn, tab in enumerate(planned.tab_order):
             others = [band for other, bands in enumerate(by_tab) if other != turn for band in bands]
-            if not _hangs_together(route, shapely.union_all([up_to_tabs, *others]), aside):
-                yield Fallen(number, route.spans[tab][1][0].start)
+            if not _hangs_together(planned, shapely.union_all([up_to_tabs, *others]), aside):
+                yield Fallen(number, planned.spans[tab][1][0].start)
 
 
-def _hangs_together(route: PlannedContour, band: shapely.Geometry, aside: float) -> bool:
+def _hangs_together(planned: PlannedContour, band: shapely.Geometry, aside: float) -> bool:
     """Tell whether what is within a contour and what is around it is one piece of metal without a band, which lies so
     much aside of its middle (mm), but for crumbs."""
-    (area,) = areas_of([route.contour])
+    (area,) = areas_of([planned.contour])
     box = shapely.box(*shapely.union(area, band).bounds).buffer(_AROUND, join_style="mitre")
     metal, edge = shapely.get_parts(box.difference(band)), shapely.Point(*box.bounds[:2])
     within = shapely.area(shapely.intersection(metal, area))
     loose = within[~shapely.intersects(metal, edge)]
-    crumb = max(_CRUMB * aside, _SCRAP * route.tabs.length) ** 2
+    crumb = max(_CRUMB * aside, _SCRAP * planned.tabs.length) ** 2
     return not (loose > crumb).any() and within.sum() > loose.sum()

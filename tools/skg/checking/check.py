@@ -62,56 +62,56 @@ class Checked:
         return self.followed.drift
 
 
-def check(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> Checked:
-    """Follow a tape and compare it with the routes that it should cut."""
-    followed = follow(tape, routes, is_without_drift)
-    path = WirePath(followed, routes)
-    beside = Beside(path, routes)
+def check(tape: Tape, contours: list[PlannedContour], is_without_drift: bool) -> Checked:
+    """Follow a tape and compare it with the contours that it should cut."""
+    followed = follow(tape, contours, is_without_drift)
+    path = WirePath(followed, contours)
+    beside = Beside(path, contours)
     faults: list[Misfit] = []
     missed: dict[tuple[int, int], Misfit] = {}
     near_others: list[tuple[Whole, Whole]] = []
     worst = along = 0.0
     with ThreadPoolExecutor(1) as other:
-        for share in _shares(path, routes, beside.reach):
+        for share in _shares(path, contours, beside.reach):
             # (numpy lets both halves run at the same time)
             half = other.submit(off_contours, path, share, beside)
-            unreached, far, along = not_reached(path, share, beside, _in_tabs(share, routes), along)
+            unreached, far, along = not_reached(path, share, beside, _in_tabs(share, contours), along)
             misfits, near, off = half.result()
             faults += misfits
             near_others += near
             missed |= unreached
             worst = max(worst, off, far)
-    crossings = into_others(path, beside, near_others, partial(_pieces, routes))
+    crossings = into_others(path, beside, near_others, partial(_pieces, contours))
     misfits = [*faults, *(missed[key] for key in sorted(missed))]
-    fell = [] if misfits else list(fallen(path, followed.cuts, routes))
-    return Checked(followed, worst, misfits, crossings, fell, path.lengths(routes))
+    fell = [] if misfits else list(fallen(path, followed.cuts, contours))
+    return Checked(followed, worst, misfits, crossings, fell, path.lengths(contours))
 
 
-def _shares(path: WirePath, routes: list[PlannedContour], reach: float) -> Iterator[Share]:
-    """The routes in shares: the curves of all of them would take as much memory as all the rest. `reach`: how far from
-    the wire other contours matter, mm."""
-    counts = np.array([sum(len(edge.samples) or 1 for edge in route.contour.edges) for route in routes])
+def _shares(path: WirePath, contours: list[PlannedContour], reach: float) -> Iterator[Share]:
+    """The contours in shares: the curves of all would take as much memory as all the rest. `reach`: how far from the
+    wire others matter, mm."""
+    counts = np.array([sum(len(edge.samples) or 1 for edge in planned.contour.edges) for planned in contours])
     shares = list(batches(counts, _TOGETHER))
     near = np.empty((2, 0), np.int64)
     if len(shares) > 1:
-        boxes, _ = boxes_of([route.contour for route in routes])
+        boxes, _ = boxes_of([planned.contour for planned in contours])
         near = path.near(boxes[:, :2] - reach, boxes[:, 2:] + reach)
     for some in shares:
         others = near[1, (some.start <= near[0]) & (near[0] < some.stop)]
-        contours = _pieces(routes, np.union1d(np.arange(some.start, some.stop), others))
-        ends = (np.searchsorted(pieces.owner, (some.start, some.stop)) for pieces in (contours, path.pieces))
-        yield Share(some, contours, *(np.arange(*pair) for pair in ends))
+        nominal = _pieces(contours, np.union1d(np.arange(some.start, some.stop), others))
+        ends = (np.searchsorted(pieces.owner, (some.start, some.stop)) for pieces in (nominal, path.pieces))
+        yield Share(some, nominal, *(np.arange(*pair) for pair in ends))
 
 
-def _pieces(routes: list[PlannedContour], numbers: Whole) -> Pieces:
-    """The contours of some routes."""
-    parts = ((part, number) for number in numbers.tolist() for part in routes[number].parts)
+def _pieces(contours: list[PlannedContour], numbers: Whole) -> Pieces:
+    """The pieces of some contours, by their numbers."""
+    parts = ((part, number) for number in numbers.tolist() for part in contours[number].parts)
     return Pieces((path, number) for part, number in parts for path in _paths(part))
 
 
-def drawn(route: PlannedContour) -> Iterator[Piece]:
+def nominal(planned: PlannedContour) -> Iterator[Piece]:
     """A contour as lines and arcs, in its direction."""
-    for edge in (edge for part in route.parts for edge in part):
+    for edge in (edge for part in planned.parts for edge in part):
         if edge.nodes:
             yield from (Piece(p, q) for p, q in pairwise(edge.points()) if p != q)
         else:
@@ -123,12 +123,12 @@ def _paths(edges: Iterable[Edge]) -> Iterator[Edge | Floats]:
     return (edge.samples if edge.nodes else edge for edge in edges)
 
 
-def _in_tabs(share: Share, routes: list[PlannedContour]) -> Flags:
+def _in_tabs(share: Share, contours: list[PlannedContour]) -> Flags:
     """Mark the pieces of the share's own contours that are tabs until the last cuts."""
-    is_in_tab = np.zeros(len(share.contours.owner), bool)
-    ends = np.searchsorted(share.contours.owner, np.arange(share.routes.start, share.routes.stop), "right")
-    for end, route in zip(ends.tolist(), routes[share.routes], strict=True):
-        for edges, tab in reversed(route.spans):
+    is_in_tab = np.zeros(len(share.nominal.owner), bool)
+    ends = np.searchsorted(share.nominal.owner, np.arange(share.numbers.start, share.numbers.stop), "right")
+    for end, planned in zip(ends.tolist(), contours[share.numbers], strict=True):
+        for edges, tab in reversed(planned.spans):
             counts = [len(Pieces((path, 0) for path in _paths(part)).owner) for part in (tab, edges)]
             is_in_tab[end - counts[0] : end] = True
             end -= sum(counts)

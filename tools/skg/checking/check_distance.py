@@ -31,10 +31,10 @@ _FAR = 1000
 
 
 def off_contours(path: WirePath, share: Share, beside: Beside) -> tuple[list[Misfit], list[tuple[Whole, Whole]], float]:
-    """The first place of each route where its wire is not as far beside its contour as it should be; which pieces of
+    """The first place of each contour where its wire is not as far beside it as it should be; which pieces of
     the wire come near to other contours, and to which; how far it is off at most, mm, but where it runs into its own
     contour."""
-    wire, contours = path.pieces, share.contours
+    wire, nominal = path.pieces, share.nominal
     wanted = _Wanted(share, beside)
     faults: dict[int, Misfit] = {}
     near_others: list[tuple[Whole, Whole]] = []
@@ -42,7 +42,7 @@ def off_contours(path: WirePath, share: Share, beside: Beside) -> tuple[list[Mis
     bare = _bare(path, share, beside)
     for which, part in wire.batches(beside.wire_spacing, 2, some=share.wire, bare=bare):
         places, owners = wire.at(which, part), wire.owner[which]
-        near = contours.nearest(places, owners, beside.reach)
+        near = nominal.nearest(places, owners, beside.reach)
         passes = path.passes[which]
         off, into = wanted.off_by(places, owners, passes, near)
         total = off + path.aside[which]
@@ -52,7 +52,7 @@ def off_contours(path: WirePath, share: Share, beside: Beside) -> tuple[list[Mis
             misses = abs(beside.aside[owner].min() - near.own[at]) if into[at] else total[at]
             faults.setdefault(owner, Misfit(owner, place_of(places[at]), float(misses), bool(into[at])))
         close = np.flatnonzero(near.other < beside.least[owners] + beside.slack)
-        near_others.append((which[close], np.unique(contours.owner[near.other_at[close]])))
+        near_others.append((which[close], np.unique(nominal.owner[near.other_at[close]])))
         worst = max(worst, float(total[~into & np.isfinite(total)].max(initial=0.0)))
     return list(faults.values()), near_others, worst
 
@@ -62,19 +62,19 @@ def _bare(path: WirePath, share: Share, beside: Beside) -> Bare | None:
     but at their ends: between these the distance from it changes evenly."""
     if not beside.widest:
         return None
-    wire, contours, end = path.pieces, share.contours, 3 * beside.reach
+    wire, nominal, end = path.pieces, share.nominal, 3 * beside.reach
     some, front, back = wire.middles(share.wire, beside.wire_spacing, end)
     reach = beside.reach
-    line = contours.alone(np.minimum(front, back) - reach, np.maximum(front, back) + reach, wire.owner[some])
+    line = nominal.alone(np.minimum(front, back) - reach, np.maximum(front, back) + reach, wire.owner[some])
     is_there = line >= 0
     some, front, back, line = some[is_there], front[is_there], back[is_there], line[is_there]
     sides, aside = [], beside.beside(wire.owner[some], path.passes[some])
     is_bare = np.ones(len(some), bool)
     off = np.zeros(aside.shape)
     for places in (front, back):
-        part = contours.part(places, line)
+        part = nominal.part(places, line)
         is_bare &= (part > 0) & (part < 1)
-        sides.append(contours.right_of(places, line))
+        sides.append(nominal.right_of(places, line))
         off = np.maximum(off, np.abs(np.abs(sides[-1])[:, None] - aside))
     # (by the same R at both ends, and on the same side)
     is_bare &= (off <= _USUAL).any(1) & (sides[0] * sides[1] > 0)
@@ -96,10 +96,10 @@ def into_others(
     if is_on[wire.owner[some]].any():
         # (the nearest one may be an open one, too: there is no side that it could be spoiled on)
         others = np.concatenate((others, np.flatnonzero(~is_open)))
-    is_right = np.array([route.widest * route.contour.area for route in beside.routes])
+    is_right = np.array([planned.widest * planned.contour.area for planned in beside.contours])
     inner, outer = ~is_open & (is_right < 0), ~is_open & (is_right > 0)
     cuts = crossings(wire, np.unique(some), contours, others, beside.least, LIMIT, inner, outer)
-    return [cut for cut in cuts if not (is_on[cut.route] and is_on[cut.other])]
+    return [cut for cut in cuts if not (is_on[cut.contour] and is_on[cut.other])]
 
 
 class _Wanted:
@@ -107,23 +107,23 @@ class _Wanted:
 
     def __init__(self, share: Share, beside: Beside) -> None:
         self.share = share
-        self.contours = share.contours
+        self.nominal = share.nominal
         self.beside = beside
-        self.routes, self.aside, self.is_open = beside.routes, beside.aside, beside.is_open
+        self.contours, self.aside, self.is_open = beside.contours, beside.aside, beside.is_open
         self.reach = beside.widest + 2 * LIMIT
 
     @cached_property
     def leads(self) -> Pieces:
         """The ways between start holes and contours."""
-        some = self.share.routes
+        some = self.share.numbers
         return Pieces(
             (piece, number)
-            for number, route in enumerate(self.routes[some], some.start)
-            for piece in _lead_pieces(route)
+            for number, planned in enumerate(self.contours[some], some.start)
+            for piece in _lead_pieces(planned)
         )
 
     def off_leads(self, places: Floats, owners: Whole) -> Floats:
-        """Distance of places from the leads of their routes."""
+        """Distance of places from the leads to their contours."""
         return self.leads.nearest(places, owners, 2 * LIMIT).own if len(places) else np.empty(0)
 
     def off_by(self, places: Floats, owners: Whole, passes: Whole, near: Nearest) -> tuple[Floats, np.ndarray]:
@@ -140,24 +140,24 @@ class _Wanted:
         doubtful = doubtful[off[doubtful] > _USUAL]
         # (of what is beyond the reach the nearest may not have been seen)
         own_at = np.where(near.own[doubtful] <= self.reach, near.own_at[doubtful], -1)
-        corners = _off_corners(places[doubtful], owners[doubtful], self.contours, aside[doubtful], own_at)
+        corners = _off_corners(places[doubtful], owners[doubtful], self.nominal, aside[doubtful], own_at)
         off[doubtful] = np.minimum(off[doubtful], corners)
         return off, into
 
     def off_steps(self, steps: Floats, owner: int, number: int) -> float:
-        """Distance of the controller's steps on a piece of a route's wire from the intended path in a pass, at
+        """Distance of the controller's steps on a piece of a contour's wire from the intended path in a pass, at
         most."""
         owners, passes = np.full(len(steps), owner), np.full(len(steps), number)
-        near = self.contours.nearest(steps, owners, self.reach)
+        near = self.nominal.nearest(steps, owners, self.reach)
         return float(self.off_by(steps, owners, passes, near)[0].max())
 
 
-def _lead_pieces(route: PlannedContour) -> Iterator[Piece]:
-    """The ways between start holes and the contour that a route may take."""
-    for run in route.runs():
+def _lead_pieces(planned: PlannedContour) -> Iterator[Piece]:
+    """The ways between start holes and a contour that its wire may take."""
+    for run in planned.runs():
         if not (run.into and run.out):
             begin = run.edges[0]
-            yield _straight(route.start, begin.start, begin.direction(), run.offset)
+            yield _straight(planned.start, begin.start, begin.direction(), run.offset)
             continue
         for lead in (run.into, run.out):
             # (a straight one is the same way in and out)
@@ -188,7 +188,7 @@ def _one_lead(lead: Lead, r: float, is_in: bool) -> Iterator[Piece]:
     yield Piece(lead.hole, inner(arc.start if is_in else arc.end))
 
 
-def _off_corners(places: Floats, owners: Whole, contours: Pieces, wanted: Floats, own_at: Whole) -> Floats:
+def _off_corners(places: Floats, owners: Whole, nominal: Pieces, wanted: Floats, own_at: Whole) -> Floats:
     """Distance of places outside of sharp corners from the intended path beside a line or circle there. `own_at`:
     the piece that is nearest to each, -1 where it is not within R."""
     off = np.full(len(places), np.inf)
@@ -197,51 +197,51 @@ def _off_corners(places: Floats, owners: Whole, contours: Pieces, wanted: Floats
     while True:
         is_known = own_at >= 0
         known, place = left[is_known], places[left][is_known]
-        first = np.searchsorted(contours.owner, owners[known])
-        count = np.searchsorted(contours.owner, owners[known], "right") - first
+        first = np.searchsorted(nominal.owner, owners[known])
+        count = np.searchsorted(nominal.owner, owners[known], "right") - first
         nearest = own_at[is_known]
         # The corner of two pieces that a place is nearest to.
-        is_behind = _far(place, contours.end[nearest]) < _far(place, contours.start[nearest])
+        is_behind = _far(place, nominal.end[nearest]) < _far(place, nominal.start[nearest])
         other = first + (nearest - first + np.where(is_behind, 1, -1)) % count
         before, after = np.where(is_behind, nearest, other), np.where(is_behind, other, nearest)
-        corner = np.where(is_behind[:, None], contours.end[nearest], contours.start[nearest])
-        ways = [contours.normal(piece, np.full(len(piece), end)) for piece, end in ((before, 1.0), (after, 0.0))]
+        corner = np.where(is_behind[:, None], nominal.end[nearest], nominal.start[nearest])
+        ways = [nominal.normal(piece, np.full(len(piece), end)) for piece, end in ((before, 1.0), (after, 0.0))]
         bend = _bend(*ways)
         # Where two lines meet the wire is R / cos(bend / 2) from the corner; arcs may take it a little further.
         is_there = _far(place, corner) * bend <= _TIP * wanted[known].max(1, initial=0.0) + LIMIT
         for piece in (before, after):
-            carrier = np.abs(contours.from_carrier(place, piece)[:, None] - wanted[known]).min(1)
+            carrier = np.abs(nominal.from_carrier(place, piece)[:, None] - wanted[known]).min(1)
             off[known] = np.minimum(off[known], np.where(is_there, carrier, np.inf))
         left = left[~is_known]
         if not len(left) or reach > _FAR * wanted.max():
             return off
-        left = left[_by_tips(places[left], owners[left], contours, wanted, reach)]
+        left = left[_by_tips(places[left], owners[left], nominal, wanted, reach)]
         if not len(left):
             return off
         reach *= 6
-        own_at = contours.nearest_own(places[left], owners[left], reach)
+        own_at = nominal.nearest_own(places[left], owners[left], reach)
 
 
-def _by_tips(places: Floats, owners: Whole, contours: Pieces, wanted: Floats, reach: float) -> Whole:
+def _by_tips(places: Floats, owners: Whole, nominal: Pieces, wanted: Floats, reach: float) -> Whole:
     """Mark places as near to a sharp corner of their contour as a wire that goes around it; those
     of corners where that is not beyond a reach are left out."""
     # (a path may have a million corners: only those of the contours that the places are beside)
     whose = np.unique(owners)
-    first = np.searchsorted(contours.owner, whose)
-    count = np.searchsorted(contours.owner, whose, "right") - first
+    first = np.searchsorted(nominal.owner, whose)
+    count = np.searchsorted(nominal.owner, whose, "right") - first
     number = numbers_up_to(count)
     before = np.repeat(first, count) + number
     after = np.repeat(first, count) + (number + 1) % np.repeat(count, count)
-    bend = _bend(contours.normal(before, np.ones(len(before))), contours.normal(after, np.zeros(len(after))))
+    bend = _bend(nominal.normal(before, np.ones(len(before))), nominal.normal(after, np.zeros(len(after))))
     tip = (_TIP * wanted.max() + LIMIT) / np.maximum(bend, 1 / _FAR)
     is_sharp = tip > reach
     sharp, tip = before[is_sharp], tip[is_sharp]
     if not len(sharp):
         return sharp
-    tree = shapely.STRtree(shapely.points(contours.end[sharp]))
+    tree = shapely.STRtree(shapely.points(nominal.end[sharp]))
     place, corner = tree.query(shapely.points(places), predicate="dwithin", distance=float(tip.max()))
-    is_near = _far(places[place], contours.end[sharp[corner]]) <= tip[corner]
-    return np.unique(place[is_near & (owners[place] == contours.owner[sharp[corner]])])
+    is_near = _far(places[place], nominal.end[sharp[corner]]) <= tip[corner]
+    return np.unique(place[is_near & (owners[place] == nominal.owner[sharp[corner]])])
 
 
 def _far(places: Floats, others: Floats) -> Floats:

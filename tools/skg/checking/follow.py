@@ -21,7 +21,7 @@ class Stretch:
     """One stretch of cutting, from where the wire is threaded: whose it is, which passes it has, which blocks of the
     tape, what the wire travels (mm), and how far from its beginning it ends (µm)."""
 
-    route: int
+    contour: int
     passes: tuple[int, ...]
     blocks: slice
     length: float
@@ -40,18 +40,18 @@ class Followed:
     drift: float
 
 
-def follow(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> Followed:
+def follow(tape: Tape, contours: list[PlannedContour], is_without_drift: bool) -> Followed:
     """Follow a tape from the first start hole with the controller.
 
     `is_without_drift`: blocks start where the controller stands; else its misses add up beside what is compared. A tape
-    whose stops are not those of the routes is a `UserError`.
+    whose stops are not those of the contours is a `UserError`.
     """
-    owners = [(number, passes) for number, route in enumerate(routes) for passes in _between_stops(route)]
+    owners = [(number, passes) for number, planned in enumerate(contours) for passes in _between_stops(planned)]
     if len(tape.bounds) != 2 * len(owners) - 1:
         raise UserError(Finding("wrong-stops", stops=len(tape.bounds) - 1, expected=2 * len(owners) - 2))
     columns = columns_of(tape)
     walked = walk(tape, np.arange(len(columns)))
-    home = [micrometres(ordinate) for ordinate in routes[0].start]
+    home = [micrometres(ordinate) for ordinate in contours[0].start]
     moves = walked.moves if is_without_drift else closed_moves(tape)
     places = np.cumsum([home, *moves], axis=0)
     drift = 0.0
@@ -68,14 +68,14 @@ def follow(tape: Tape, routes: list[PlannedContour], is_without_drift: bool) -> 
     return Followed(laid, walked.off_curve, cuts, drift)
 
 
-def _between_stops(route: PlannedContour) -> list[tuple[int, ...]]:
+def _between_stops(planned: PlannedContour) -> list[tuple[int, ...]]:
     """The numbers of the passes that follow each other without a stop; -1: all of them in one cut."""
-    if not route.contour.is_closed:
+    if not planned.contour.is_closed:
         return [(-1,)]
-    if len(route.passes) == 1 and not route.tabs.each:
+    if len(planned.passes) == 1 and not planned.tabs.each:
         return [(0,)]
     groups: list[tuple[int, ...]] = []
-    for run in route.runs():
+    for run in planned.runs():
         if not groups or run.stop:
             groups.append(())
         groups[-1] += (run.number,)

@@ -27,10 +27,10 @@ _HAIR = 1e-3
 
 @dataclass(frozen=True)
 class Crossing:
-    """The wire of one route comes into another's contour by `depth` mm, the deepest at a place of that contour; its
+    """The wire of one contour comes into another by `depth` mm, the deepest at a place of that contour; its
     middle too where it `is_through`, then it may be more."""
 
-    route: int
+    contour: int
     other: int
     place: XY
     depth: float
@@ -47,28 +47,28 @@ def crossings(
     inner: Flags,
     outer: Flags,
 ) -> list[Crossing]:
-    """Return who cuts by more than `limit` into whom, each pair of routes once.
+    """Return who cuts by more than `limit` into whom, each pair of contours once.
 
     `some`: the pieces of the wire that come near, `others`: the owners of the contours that they come near to;
-    `contours` gives the pieces of the contours with some owners. `least`: how far the wire of each route must stay off
-    what is not its own, mm. `inner`, `outer`: on which side of each route's contour its wire runs; on neither of an
+    `contours` gives the pieces of the contours with some owners. `least`: how far the wire of each must stay off
+    what is not its own, mm. `inner`, `outer`: on which side of each contour its wire runs; on neither of an
     open one.
     """
     lines = lines_of(wire.some(some))
 
     def deep(near: Pieces, there: Shapes) -> list[Crossing]:
         one, other = shapely.STRtree(there).query(lines, predicate="dwithin", distance=float(least.max(initial=0.0)))
-        routes, owners = wire.owner[some[one]], near.owner[other]
+        wires, owners = wire.owner[some[one]], near.owner[other]
         far = shapely.distance(lines[one], there[other])
-        depth = least[routes] - far
-        deep = np.flatnonzero((routes != owners) & (depth > limit))
+        depth = least[wires] - far
+        deep = np.flatnonzero((wires != owners) & (depth > limit))
         # The deepest of each pair comes first.
-        deep = deep[np.lexsort((-depth[deep], owners[deep], routes[deep]))]
-        _, first = np.unique(np.stack((routes[deep], owners[deep])), axis=1, return_index=True)
+        deep = deep[np.lexsort((-depth[deep], owners[deep], wires[deep]))]
+        _, first = np.unique(np.stack((wires[deep], owners[deep])), axis=1, return_index=True)
         found = []
         for at in deep[np.sort(first)].tolist():
             x, y = shapely.get_coordinates(shapely.shortest_line(lines[one[at]], there[other[at]]))[1].tolist()
-            found.append(Crossing(int(routes[at]), int(owners[at]), (x, y), float(depth[at]), bool(far[at] == 0)))
+            found.append(Crossing(int(wires[at]), int(owners[at]), (x, y), float(depth[at]), bool(far[at] == 0)))
         return found
 
     near = contours(np.unique(others))

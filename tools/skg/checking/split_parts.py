@@ -18,14 +18,14 @@ _HAIR = 0.005
 _PLACES = 5
 
 
-def fallen(routes: Sequence[PlannedContour]) -> Iterator[tuple[int, int, XY]]:
+def fallen(contours: Sequence[PlannedContour]) -> Iterator[tuple[int, int, XY]]:
     """The outlines (by their numbers) of which the openings leave more than one piece: how many, a place in the
     smallest of them, mm."""
-    closed = np.array([number for number, route in enumerate(routes) if route.contour.is_closed], int)
-    depth = np.array([routes[number].depth for number in closed.tolist()], int)
+    closed = np.array([number for number, planned in enumerate(contours) if planned.contour.is_closed], int)
+    depth = np.array([contours[number].depth for number in closed.tolist()], int)
     if not len(closed) or not depth.any():
         return
-    areas = areas_of([routes[number].contour for number in closed.tolist()])
+    areas = areas_of([contours[number].contour for number in closed.tolist()])
     outline, opening = shapely.STRtree(areas).query(areas)
     is_in = (depth[outline] % 2 == 0) & (depth[opening] == depth[outline] + 1)
     outline, opening = outline[is_in], opening[is_in]
@@ -38,11 +38,11 @@ def fallen(routes: Sequence[PlannedContour]) -> Iterator[tuple[int, int, XY]]:
             yield int(closed[number]), len(pieces), (inside.x, inside.y)
 
 
-def findings(routes: Sequence[PlannedContour]) -> list[Finding]:
+def findings(contours: Sequence[PlannedContour]) -> list[Finding]:
     """Report split parts."""
     split = [
-        Finding("part-in-pieces", turn=routes[number].turn, count=count, contour=routes[number].number, place=place)
-        for number, count, place in fallen(routes)
+        Finding("part-in-pieces", turn=contours[number].turn, count=count, contour=contours[number].number, place=place)
+        for number, count, place in fallen(contours)
     ]
     more = len(split) - _PLACES
     return split[:_PLACES] + [Finding("more-such-parts", count=more)] * (more > 0)

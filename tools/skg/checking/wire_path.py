@@ -27,10 +27,10 @@ _MOST_PLACES = 400_000
 
 @dataclass(frozen=True)
 class Misfit:
-    """A place (mm) where the wire is not where the drawing has it: `route` by its number in the order of cutting,
+    """A place (mm) where the wire is not where the drawing has it: `contour` by its number in the order of cutting,
     how far it is off (infinite: far), whether it runs into its own contour there, whether it never came there."""
 
-    route: int
+    contour: int
     place: XY
     off: float
     is_into: bool = False
@@ -47,17 +47,17 @@ class Beside:
     on contours: nothing as large as the wire is missed. What is further from the wire than `reach` does not matter.
     """
 
-    def __init__(self, path: WirePath, routes: list[PlannedContour]) -> None:
-        self.routes = routes
-        self.passes = np.array([len(route.passes) for route in routes])
-        self.cuts = np.array([len(route.offsets) for route in routes])
+    def __init__(self, path: WirePath, contours: list[PlannedContour]) -> None:
+        self.contours = contours
+        self.passes = np.array([len(planned.passes) for planned in contours])
+        self.cuts = np.array([len(planned.offsets) for planned in contours])
         most = self.cuts.max()
-        padded = [(*route.offsets, *(most - len(route.offsets)) * route.offsets[-1:]) for route in routes]
+        padded = [(*planned.offsets, *(most - len(planned.offsets)) * planned.offsets[-1:]) for planned in contours]
         self.offsets = np.array(padded, float)
         self.aside = np.abs(self.offsets)
         self.wires = [path.of_pass(number) for number in range(most)]
         self.widest = float(self.aside.max(initial=0.0))
-        self.is_open = np.array([not route.contour.is_closed for route in routes])
+        self.is_open = np.array([not planned.contour.is_closed for planned in contours])
         self.least = self.aside.min(1)
         # What is cut on its line takes as much away on each side as the wire beside the other contours.
         self.is_on = self.is_open & (self.least == 0)
@@ -65,9 +65,9 @@ class Beside:
         self.wire_spacing = self.spacing = inf
         self.slack = 0.0
         if self.widest:
-            drawn = sum(edge.length for route in routes for edge in route.contour.edges)
+            nominal = sum(edge.length for planned in contours for edge in planned.contour.edges)
             self.wire_spacing = max(self.widest / 2, float(path.pieces.length.sum()) / _MOST_PLACES)
-            self.spacing = max(self.widest / 2, drawn / _MOST_PLACES)
+            self.spacing = max(self.widest / 2, nominal / _MOST_PLACES)
             # Between two places the wire may be as much nearer to a corner.
             self.slack = hypot(self.widest, self.wire_spacing / 2) - self.widest + LIMIT
         self.reach = self.widest + self.slack + 2 * LIMIT
@@ -82,12 +82,12 @@ class Beside:
 
 
 class Share(NamedTuple):
-    """Some of the routes, that follow each other: their numbers; the contours of these, and of all others that their
-    wire may come near to; which of these pieces, and of the wire's, are theirs."""
+    """Some of the contours, that follow each other: their numbers; the nominal pieces of these, and of all others that
+    their wire may come near to; which of these pieces, and of the wire's, are theirs."""
 
-    routes: slice
-    contours: Pieces
-    drawn: Whole
+    numbers: slice
+    nominal: Pieces
+    own: Whole
     wire: Whole
 
 
@@ -98,13 +98,13 @@ class WirePath:
     most; where this is too much, its steps are looked at one by one.
     """
 
-    def __init__(self, followed: Followed, routes: list[PlannedContour]) -> None:
+    def __init__(self, followed: Followed, contours: list[PlannedContour]) -> None:
         cuts = followed.cuts
         self.laid = followed.laid
         #: Which of the blocks they are.
         self.rows = np.concatenate([np.arange(cut.blocks.start, cut.blocks.stop) for cut in cuts])
         counts = np.array([cut.blocks.stop - cut.blocks.start for cut in cuts])
-        owners = np.repeat([cut.route for cut in cuts], counts)
+        owners = np.repeat([cut.contour for cut in cuts], counts)
         start, end, centre = (side[self.rows] / 1000 for side in (self.laid.starts, self.laid.ends, self.laid.centres))
         sweeps = np.where(self.laid.is_line, 0.0, self.laid.sweeps)[self.rows]
         self.pieces = Pieces.of_columns(start, end, centre, sweeps, owners)
@@ -114,11 +114,11 @@ class WirePath:
         for cut, last, count in zip(cuts, np.cumsum(counts).tolist(), counts.tolist(), strict=True):
             if len(cut.passes) > 1:
                 some = slice(last - count, last)
-                self.passes[some] = _passes(cut.passes, routes[cut.route], self.pieces.end[some])
+                self.passes[some] = _passes(cut.passes, contours[cut.contour], self.pieces.end[some])
 
-    def lengths(self, routes: list[PlannedContour]) -> tuple[float, ...]:
+    def lengths(self, contours: list[PlannedContour]) -> tuple[float, ...]:
         """Length of the wire's path in each pass, mm: the cuts of a tab begin anew with the first."""
-        of_contour = np.array([len(route.passes) for route in routes])[self.pieces.owner]
+        of_contour = np.array([len(planned.passes) for planned in contours])[self.pieces.owner]
         # (an open contour has one pass; where passes cannot be told apart they are the first)
         turns = np.maximum(np.where(self.passes < of_contour, self.passes, self.passes - of_contour), 0)
         return tuple(np.bincount(turns, self.pieces.length).tolist())
@@ -131,7 +131,7 @@ class WirePath:
         return pieces
 
     def near(self, low: Floats, high: Floats) -> Whole:
-        """Return the pairs (2, m) of a route and of a box, of n (their smallest and largest x and y), that its wire may
+        """The pairs (2, m) of a contour and of a box, of n (their smallest and largest x and y), that its wire may
         come into."""
         pairs = [np.empty((2, 0), np.int64)]
         for box, piece in self.pieces.index().within(low, high):
@@ -150,9 +150,9 @@ class WirePath:
         return (places - piece.block.start + piece.start) / 1000
 
 
-def _passes(passes: tuple[int, ...], route: PlannedContour, ends: Floats) -> Whole:
+def _passes(passes: tuple[int, ...], planned: PlannedContour, ends: Floats) -> Whole:
     """Return the passes of pieces that end at these places: a pass ends in a start hole."""
-    holes = np.array([*route.holes, *(tab.before for tab in route.tabs.each)])
+    holes = np.array([*planned.holes, *(tab.before for tab in planned.tabs.each)])
     is_last = (np.hypot(*(ends[:, None] - holes).T) < _HOLE).any(0)
     if is_last.sum() != len(passes):
         return np.full(len(ends), -1)

@@ -376,7 +376,7 @@ def _in_json(cut: CutDrawing, more: list[Finding], way: Speech) -> dict[str, obj
         "seconds": round(result.seconds, 1),
         "off_um": round(1000 * result.checked.off, 3),
         **cut.cost.data(),
-        "starts": [list(hole) for route in result.routes for hole in route.holes],
+        "starts": [list(hole) for planned in result.contours for hole in planned.holes],
     }
 
 
@@ -441,7 +441,7 @@ def _cut(
         if name.program:
             others.append((name.program, cut.result.program.encode("ascii")))
         if name.holes:
-            others.append((name.holes, holes_files.holes_file(cut.result.routes, thick, name.holes)))
+            others.append((name.holes, holes_files.holes_file(cut.result.contours, thick, name.holes)))
     for beside, content in others:
         write_bytes(beside, content)
     if sheet:
@@ -466,9 +466,9 @@ def _cut(
         if dialect is None:
             more = unmarked(name.output, cut.result.tape, job.machine.rom)
         else:
-            more = to_be_set(cut.result.routes, dialect)
+            more = to_be_set(cut.result.contours, dialect)
         if name.holes:
-            more = [*holes_files.findings(cut.result.routes, thick, name.holes), *more]
+            more = [*holes_files.findings(cut.result.contours, thick, name.holes), *more]
         result.append((cut, [*_used(setup, kept, job), *more] if setup is not None and not result else more))
     return result
 
@@ -508,7 +508,7 @@ def _for_machine(result: CutResult, dialect: GcodeDialect, output: str) -> bytes
     from skg.dialects.written import machine_program
 
     positions = "machine" if result.machine.is_without_drift else "programmed"
-    return machine_program(result.routes, result.tape, positions, result.machine.feed, dialect, output).encode()
+    return machine_program(result.contours, result.tape, positions, result.machine.feed, dialect, output).encode()
 
 
 def is_job_file(name: str) -> bool:

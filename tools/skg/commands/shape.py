@@ -42,7 +42,7 @@ def write_shape(name: str, shape: Gear | Cam, output: str, offset: float | None,
         result = shape.cut(name, Wanted(offset=offset or 0.0, tab=tab))
     except UserError as error:
         raise error.within(name) from None
-    if any(route.rung.wire and any(route.passes) for route in result.routes):
+    if any(planned.rung.wire and any(planned.passes) for planned in result.contours):
         raise UserError(Finding("shape-too-narrow", offset=offset).within(name))
     write_bytes(output, result.program.encode("ascii"))
     if tape:

@@ -37,8 +37,8 @@ class Cost:
         machine = result.machine
         thick = machine.thickness
         areas = tuple(round(length * thick) for length in result.checked.lengths) if thick else ()
-        holes = len(holes_of(result.routes))
-        passes = sum(len(route.passes) for route in result.routes)
+        holes = len(holes_of(result.contours))
+        passes = sum(len(planned.passes) for planned in result.contours)
         is_wanted = any((*price.per_area, price.per_hole, price.per_pass))
         is_without = not thick and any((*price.per_area, *machine.rates))
         parts: tuple[Decimal, Decimal, Decimal] | None = None

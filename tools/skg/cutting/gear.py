@@ -86,25 +86,25 @@ class Gear:
     def cut(self, name: str, wanted: Wanted) -> CutResult:
         """Make a tape of the gear. The program has one tooth, and REP for the others; all of them with a tab, whose
         lead would be repeated, and where the board has no room for so long a tooth."""
-        routes = plan(self.contours(), [], wanted)
+        contours = plan(self.contours(), [], wanted)
         if not wanted.tab:
-            routes = [route if route.number else self._from_a_tip(route, wanted.lead) for route in routes]
+            contours = [planned if planned.number else self._from_a_tip(planned, wanted.lead) for planned in contours]
             with suppress(UserError):
-                return run(Program(routes, name, self._parts), MachineSetup(small="", into=""))
-        return make(routes, name, MachineSetup(small="", into=""))
+                return run(Program(contours, name, self._parts), MachineSetup(small="", into=""))
+        return make(contours, name, MachineSetup(small="", into=""))
 
-    def _from_a_tip(self, route: PlannedContour, lead: float) -> PlannedContour:
+    def _from_a_tip(self, planned: PlannedContour, lead: float) -> PlannedContour:
         """The outline, entered where a tooth begins: there the next one goes on."""
         outline = self._outline()
-        start = polar((0, 0), self.tip_radius + lead + route.offset, -self.half_angle(self.tip_radius))
-        return replace(route, contour=outline, start=start, part=0.0)
+        start = polar((0, 0), self.tip_radius + lead + planned.offset, -self.half_angle(self.tip_radius))
+        return replace(planned, contour=outline, start=start, part=0.0)
 
-    def _parts(self, route: PlannedContour) -> Iterator[RoutePart]:
+    def _parts(self, planned: PlannedContour) -> Iterator[RoutePart]:
         """The bore, and of the outline one tooth with its copies."""
-        if route.number:
-            return parts_of(route)
-        edges = route.contour.edges
-        tooth = replace(route, contour=Contour(edges[: len(edges) // self.teeth], False))
+        if planned.number:
+            return parts_of(planned)
+        edges = planned.contour.edges
+        tooth = replace(planned, contour=Contour(edges[: len(edges) // self.teeth], False))
         return chain(parts_of(tooth), [f"REP {self.teeth},360/{self.teeth}", "BACK"])
 
     def _refuse(self) -> None:

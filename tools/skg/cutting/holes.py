@@ -28,49 +28,49 @@ def refuse_name(name: str) -> None:
         raise UserError(Finding("holes-name", endings=(CSV, *ENDINGS)).within(name))
 
 
-def holes_file(routes: Sequence[PlannedContour], thickness: float | None, name: str) -> bytes:
+def holes_file(contours: Sequence[PlannedContour], thickness: float | None, name: str) -> bytes:
     """The file of the start holes that a name asks for; a drilling program wants the stock's thickness, mm."""
-    return table(routes) if name.lower().endswith(CSV) else drilled(routes, thickness, name)
+    return table(contours) if name.lower().endswith(CSV) else drilled(contours, thickness, name)
 
 
-def findings(routes: Sequence[PlannedContour], thickness: float | None, name: str) -> list[Finding]:
+def findings(contours: Sequence[PlannedContour], thickness: float | None, name: str) -> list[Finding]:
     """Report the depth and the feed that the drilling program assumes."""
     if name.lower().endswith(CSV) or thickness is None:
         return []
     depth = thickness + OVER
     return [
-        Finding("drilled", count=len(holes_of(routes)), depth=depth, over=OVER, clear=CLEAR, feed=FEED).within(name)
+        Finding("drilled", count=len(holes_of(contours)), depth=depth, over=OVER, clear=CLEAR, feed=FEED).within(name)
     ]
 
 
-def table(routes: Sequence[PlannedContour]) -> bytes:
+def table(contours: Sequence[PlannedContour]) -> bytes:
     """The holes as CSV in the order of cutting: number, x and y (mm), the contour's number and kind."""
     text = StringIO(newline="")
     writer = csv.writer(text)
     writer.writerow(("hole", "x_mm", "y_mm", "contour", "kind"))
-    for number, ((x, y), route) in enumerate(holes_of(routes), 1):
+    for number, ((x, y), planned) in enumerate(holes_of(contours), 1):
         # (-0.0001 is 0.000)
-        writer.writerow((number, *(f"{round(part, 3) + 0.0:.3f}" for part in (x, y)), route.turn, route.kind))
+        writer.writerow((number, *(f"{round(part, 3) + 0.0:.3f}" for part in (x, y)), planned.turn, planned.kind))
     return text.getvalue().encode("ascii")
 
 
-def drilled(routes: Sequence[PlannedContour], thickness: float | None, name: str) -> bytes:
+def drilled(contours: Sequence[PlannedContour], thickness: float | None, name: str) -> bytes:
     """The program that drills the holes through the stock, by G81."""
     if thickness is None:
         raise UserError(Finding("drill-without-thickness").within(name))
-    holes, depth = [_spot(hole) for hole, _ in holes_of(routes)], -micrometres(thickness + OVER)
+    holes, depth = [_spot(hole) for hole, _ in holes_of(contours)], -micrometres(thickness + OVER)
     text = drilling(holes, depth, micrometres(CLEAR), FEED, _NOTE)
     if read(text, name).path.marks != [Drilled(hole, Decimal(depth)) for hole in holes]:
         raise UserError(Finding("read-back-empty").within(name))
     return text.encode("ascii")
 
 
-def holes_of(routes: Iterable[PlannedContour]) -> list[tuple[XY, PlannedContour]]:
+def holes_of(contours: Iterable[PlannedContour]) -> list[tuple[XY, PlannedContour]]:
     """The places of the holes, mm, each once, with the first contour that is cut from there."""
     holes: dict[Spot, tuple[XY, PlannedContour]] = {}
-    for route in routes:
-        for hole in route.holes:
-            holes.setdefault(_spot(hole), (hole, route))
+    for planned in contours:
+        for hole in planned.holes:
+            holes.setdefault(_spot(hole), (hole, planned))
     return list(holes.values())
 
 

@@ -50,7 +50,7 @@ class CutResult:
     """A tape that was checked, the program that made it, how it went into the board; `skipped`: contours that it does
     not cut."""
 
-    routes: list[PlannedContour]
+    contours: list[PlannedContour]
     program: str
     is_stored: bool
     data: bytes
@@ -75,23 +75,23 @@ _Trouble = ErrorLine | list[Misfit]
 
 
 def make(
-    routes: list[PlannedContour],
+    contours: list[PlannedContour],
     title: str,
     machine: MachineSetup,
     progress: Progress = in_silence,
     pattern: Pattern | None = None,
 ) -> CutResult:
-    """Write the program that cuts the routes, let the board run it, check the tape.
+    """Write the program that cuts the contours, let the board run it, check the tape.
 
     Each contour is written as it is drawn, unless the ROM or the check refuses that; then the remedies of `_RUNGS`
     follow, for this contour alone. Nothing is returned that is wrong: a contour that cannot be cut, or that is not cut
-    as it is drawn, is a `UserError`. `pattern`: copies of all routes, which are cut instead.
+    as it is drawn, is a `UserError`. `pattern`: copies of all contours, which are cut instead.
     """
-    first = _made(_Ladder(routes, title, machine, progress))
+    first = _made(_Ladder(contours, title, machine, progress))
     if not pattern:
         return first
     # (what is wrong with the part is told of once)
-    result = _made(_Ladder(pattern.all_of(first.routes), title, machine, progress, pattern))
+    result = _made(_Ladder(pattern.all_of(first.contours), title, machine, progress, pattern))
     return replace(result, skipped=first.skipped + result.skipped)
 
 
@@ -100,7 +100,7 @@ def _made(ladder: _Ladder) -> CutResult:
     ladder.leave_short()
     ladder.tame()
     result = ladder.around_tips(ladder.through())
-    refusal.refuse(result.checked, result.routes, ladder.machine)
+    refusal.refuse(result.checked, result.contours, ladder.machine)
     return replace(result, skipped=tuple(ladder.skipped))
 
 
@@ -109,36 +109,36 @@ def run(program: Program, machine: MachineSetup) -> CutResult:
     result = _tried(program, machine, in_silence)
     if isinstance(result, ErrorLine):
         raise UserError(refusal.meaning(result.number))
-    refusal.refuse(result.checked, result.routes, machine)
+    refusal.refuse(result.checked, result.contours, machine)
     return result
 
 
-def _arcs_for_fillets(route: PlannedContour, trouble: _Trouble) -> PlannedContour | None:
+def _arcs_for_fillets(planned: PlannedContour, trouble: _Trouble) -> PlannedContour | None:
     """A rounded corner without room to round it may still go as an arc."""
-    if isinstance(trouble, ErrorLine) and writes_fillets(route):
-        return route.on_rung(has_fillets=False)
+    if isinstance(trouble, ErrorLine) and writes_fillets(planned):
+        return planned.on_rung(has_fillets=False)
     return None
 
 
-def _straight_lead(route: PlannedContour, _trouble: _Trouble) -> PlannedContour | None:
+def _straight_lead(planned: PlannedContour, _trouble: _Trouble) -> PlannedContour | None:
     """An arc that comes to the contour takes more room than a line."""
-    if route.is_arc and route.contour.is_closed:
-        return route.on_rung(lead=LeadShape.CRAMPED)
+    if planned.is_arc and planned.contour.is_closed:
+        return planned.on_rung(lead=LeadShape.CRAMPED)
     return None
 
 
-def _own_way(route: PlannedContour, _trouble: _Trouble) -> PlannedContour | None:
+def _own_way(planned: PlannedContour, _trouble: _Trouble) -> PlannedContour | None:
     """The wire's own way, without R; `NoRoom` where there is none."""
-    return route.along_wire() if _may_be_traced(route) else None
+    return planned.along_wire() if _may_be_traced(planned) else None
 
 
-def _in_chords(route: PlannedContour, trouble: _Trouble) -> PlannedContour | None:
+def _in_chords(planned: PlannedContour, trouble: _Trouble) -> PlannedContour | None:
     """Chords of arcs and curves that the controller is a little off, without an offset."""
     is_off = not isinstance(trouble, ErrorLine) and any(
         fault.off < inf and not fault.is_into and not fault.is_missed for fault in trouble
     )
-    is_bent = any(not edge.is_line for edge in route.contour.edges)
-    return route.in_chords() if is_off and is_bent and not any(route.passes) and not route.rung.wire else None
+    is_bent = any(not edge.is_line for edge in planned.contour.edges)
+    return planned.in_chords() if is_off and is_bent and not any(planned.passes) and not planned.rung.wire else None
 
 
 #: The remedies, in the order in which they are tried: each returns the contour on another rung, or None where it does
@@ -147,18 +147,18 @@ _RUNGS = (_arcs_for_fillets, _straight_lead, _own_way, _in_chords)
 
 
 class _Ladder:
-    """The contours, each on a rung of its own. `routes`: by their numbers in the order of cutting; `skipped`: those
+    """The contours, each on a rung of its own. `contours`: by their numbers in the order of cutting; `skipped`: those
     that are not cut; `pattern`: the copies that they are."""
 
     def __init__(
         self,
-        routes: list[PlannedContour],
+        contours: list[PlannedContour],
         title: str,
         machine: MachineSetup,
         progress: Progress,
         pattern: Pattern | None = None,
     ) -> None:
-        self.routes = dict(enumerate(routes))
+        self.contours = dict(enumerate(contours))
         self.skipped: list[Skipped] = []
         self.title = title
         self.machine = machine
@@ -167,67 +167,67 @@ class _Ladder:
 
     def leave_short(self) -> None:
         """Leave contours that are too short for their tab; a `UserError` where they are refused."""
-        longest = {number: route.remarks.longest_tab for number, route in self.routes.items()}
+        longest = {number: planned.remarks.longest_tab for number, planned in self.contours.items()}
         fits = {number: length for number, length in longest.items() if length is not None}
         if fits and self.machine.small != "leave":
-            raise refusal.without_tab(self.routes, fits, self.machine)
+            raise refusal.without_tab(self.contours, fits, self.machine)
         self._leave({number: refusal.too_short(fit) for number, fit in fits.items()})
 
     def tame(self) -> None:
         """Give those their own way whose wire would run off for a thousand R and more: it would be followed and
         compared first."""
         no_room: dict[int, NoRoom] = {}
-        for number, route in self.routes.items():
-            if not (_may_be_traced(route) and route.has_spike(_WILD)):
+        for number, planned in self.contours.items():
+            if not (_may_be_traced(planned) and planned.has_spike(_WILD)):
                 continue
-            why = _no_room(route)
+            why = _no_room(planned)
             if why is None:
-                self.routes[number] = (_straight_lead(route, []) or route).along_wire()
+                self.contours[number] = (_straight_lead(planned, []) or planned).along_wire()
             elif why.is_crossing:
                 no_room[number] = why
-        self._leave_without_room(no_room, self.routes)
+        self._leave_without_room(no_room, self.contours)
 
     def through(self) -> CutResult:
         """Try all contours, and those by themselves that did not go through, until all do."""
-        numbers = list(self.routes)
+        numbers = list(self.contours)
         while True:
-            tried = self._try({number: self.routes[number] for number in numbers})
+            tried = self._try({number: self.contours[number] for number in numbers})
             again: list[int] = []
             if not isinstance(tried, CutResult):
                 self._climb(tried)
-                again = [number for number in self.routes if number in tried]
-            elif len(numbers) == len(self.routes):
+                again = [number for number in self.contours if number in tried]
+            elif len(numbers) == len(self.contours):
                 return tried
-            numbers = again if 0 < 2 * len(again) < len(self.routes) else list(self.routes)
+            numbers = again if 0 < 2 * len(again) < len(self.contours) else list(self.contours)
 
     def around_tips(self, result: CutResult) -> CutResult:
         """The tape of which the wire goes around the tips that it would run far past, with its own way, where that is
         right; else the one that there is."""
         around: dict[int, PlannedContour] = {}
-        for number, route in self.routes.items():
+        for number, planned in self.contours.items():
             with suppress(NoRoom):
-                if _may_be_traced(route) and route.has_spike():
-                    around[number] = route.along_wire(Reason.TIPS)
+                if _may_be_traced(planned) and planned.has_spike():
+                    around[number] = planned.along_wire(Reason.TIPS)
         while around:
-            tried = self._try(self.routes | around)
+            tried = self._try(self.contours | around)
             if isinstance(tried, CutResult):
                 with suppress(UserError):
-                    refusal.refuse(tried.checked, tried.routes, self.machine)
+                    refusal.refuse(tried.checked, tried.contours, self.machine)
                     return tried
                 break
-            around = {number: route for number, route in around.items() if number not in tried}
+            around = {number: planned for number, planned in around.items() if number not in tried}
         return result
 
-    def _try(self, routes: dict[int, PlannedContour]) -> CutResult | Mapping[int, _Trouble]:
+    def _try(self, contours: dict[int, PlannedContour]) -> CutResult | Mapping[int, _Trouble]:
         """Cut some contours: what comes of it, or which do not go through."""
-        numbers, program = list(routes), Program(list(routes.values()), self.title, pattern=self.pattern)
+        numbers, program = list(contours), Program(list(contours.values()), self.title, pattern=self.pattern)
         result = _tried(program, self.machine, self.progress)
         if isinstance(result, ErrorLine):
             refused = _refused(program, self.machine) or dict.fromkeys(range(len(numbers)), result)
             return {numbers[index]: error for index, error in refused.items()}
         misfits: dict[int, list[Misfit]] = defaultdict(list)
         for fault in result.checked.faults:
-            misfits[numbers[fault.route]].append(fault)
+            misfits[numbers[fault.contour]].append(fault)
         return misfits or result
 
     def _climb(self, troubles: Mapping[int, _Trouble]) -> None:
@@ -236,14 +236,14 @@ class _Ladder:
         stuck: dict[int, Phrase] = {}
         lost: list[int] = []
         for number in sorted(troubles):
-            route, trouble = self.routes[number], troubles[number]
+            planned, trouble = self.contours[number], troubles[number]
             try:
-                helped = next(filter(None, (rung(route, trouble) for rung in _RUNGS)), None)
+                helped = next(filter(None, (rung(planned, trouble) for rung in _RUNGS)), None)
             except NoRoom as why:
                 no_room[number] = why
                 continue
             if helped:
-                self.routes[number] = helped
+                self.contours[number] = helped
             elif reason := self._reason(trouble):
                 stuck[number] = reason
             else:
@@ -262,41 +262,41 @@ class _Ladder:
 
     def _lost(self, number: int, trouble: _Trouble) -> UserError:
         """Report a contour that nothing helps."""
-        route = self.routes[number]
+        planned = self.contours[number]
         if not isinstance(trouble, ErrorLine):
-            return refusal.off_drawing(trouble, route, self.machine)
-        _, steps, _ = Program([route], "").unnumbered()
+            return refusal.off_drawing(trouble, planned, self.machine)
+        _, steps, _ = Program([planned], "").unnumbered()
         fed, done = feed_lines([_text([step]) for step in steps], self.machine.rom, self.machine.ram)
         if not fed.error:
-            return UserError(refusal.meaning(trouble.number).about(route.number))
-        place = [route.entry, *(step.place for step in steps[: done + 1] if step.place)][-1]
+            return UserError(refusal.meaning(trouble.number).about(planned.number))
+        place = [planned.entry, *(step.place for step in steps[: done + 1] if step.place)][-1]
         error = refusal.meaning(fed.error.number)
-        return UserError(Finding("refused-near", name=route.name, error=error, contour=route.number, place=place))
+        return UserError(Finding("refused-near", name=planned.name, error=error, contour=planned.number, place=place))
 
     def _leave_without_room(self, no_room: dict[int, NoRoom], among: Iterable[int]) -> None:
         """Leave contours that the wire does not get around; where they are refused, a `UserError` on all that there are
         among some."""
         if no_room and self.machine.small != "leave":
-            no_room = {number: why for number in among if (why := _no_room(self.routes[number]))}
-            raise refusal.without_room(self.routes, no_room, self.machine)
+            no_room = {number: why for number in among if (why := _no_room(self.contours[number]))}
+            raise refusal.without_room(self.contours, no_room, self.machine)
         self._leave({number: no_room[number].why for number in no_room})
 
     def _leave(self, reasons: dict[int, Phrase]) -> None:
         """Leave contours, and what lies in those that are openings."""
-        names = {number: self.routes[number].name for number in reasons}
-        within = islands(self.routes, reasons)
+        names = {number: self.contours[number].name for number in reasons}
+        within = islands(self.contours, reasons)
         for number, reason in reasons.items():
-            self.skipped.append(Skipped(self.routes.pop(number).number, names[number], reason))
+            self.skipped.append(Skipped(self.contours.pop(number).number, names[number], reason))
         for number, opening in within.items():
-            route = self.routes.pop(number)
+            planned = self.contours.pop(number)
             reason = Phrase("lies-in-not-cut", name=names[opening])
-            self.skipped.append(Skipped(route.number, route.name, reason, is_within=True))
-        if not self.routes:
+            self.skipped.append(Skipped(planned.number, planned.name, reason, is_within=True))
+        if not self.contours:
             raise UserError(Finding("nothing-left", name=self.skipped[0].name, why=self.skipped[0].why))
 
 
-def _may_be_traced(route: PlannedContour) -> bool:
-    return route.contour.is_closed and all(route.passes) and not route.rung.wire
+def _may_be_traced(planned: PlannedContour) -> bool:
+    return planned.contour.is_closed and all(planned.passes) and not planned.rung.wire
 
 
 def _is_into(trouble: _Trouble) -> bool:
@@ -304,10 +304,10 @@ def _is_into(trouble: _Trouble) -> bool:
     return not isinstance(trouble, ErrorLine) and any(fault.is_into for fault in trouble)
 
 
-def _no_room(route: PlannedContour) -> NoRoom | None:
+def _no_room(planned: PlannedContour) -> NoRoom | None:
     """Return why the wire has no way of its own around a contour; None where it has one."""
     try:
-        _own_way(route, [])
+        _own_way(planned, [])
     except NoRoom as why:
         return why
     return None
@@ -315,19 +315,19 @@ def _no_room(route: PlannedContour) -> NoRoom | None:
 
 def _tried(program: Program, machine: MachineSetup, progress: Progress) -> CutResult | ErrorLine:
     """Let the board run a program, and check the tape; the error where the ROM refuses it."""
-    count = len(program.routes)
+    count = len(program.contours)
     progress("board", 0, count)
     text, is_stored, fed = _through(program, machine, lambda done: progress("board", done, count))
     if fed.error:
         return fed.error
     progress("check", 0, count)
     tape = tapes.parse(fed.tape, program.title)
-    checked = check(tape, program.routes, machine.is_without_drift)
-    return CutResult(program.routes, text, is_stored, fed.tape, tape, checked, machine)
+    checked = check(tape, program.contours, machine.is_without_drift)
+    return CutResult(program.contours, text, is_stored, fed.tape, tape, checked, machine)
 
 
 def _refused(program: Program, machine: MachineSetup) -> dict[int, ErrorLine]:
-    """The routes that the ROM refuses."""
+    """The contours, by their numbers, whose routes the ROM refuses."""
     _, *routes, _ = map(_text, program.unnumbered())
     return refused_routes(routes, machine.rom, machine.ram)
 
@@ -336,7 +336,7 @@ def _through(program: Program, machine: MachineSetup, on_done: Callable[[int], N
     """The program's text, whether it is stored, and what the board made of it: with line numbers where it fits."""
     text = ""
     copies = program.pattern.copies.count if program.pattern else 1
-    if _LEAST_STORED * len(program.routes) <= 1024 * machine.ram * copies:
+    if _LEAST_STORED * len(program.contours) <= 1024 * machine.ram * copies:
         with suppress(UserError):
             text = program.numbered()
     if text:

@@ -27,12 +27,12 @@ class Manner:
     overlap: float
 
     @classmethod
-    def of(cls, route: PlannedContour) -> Manner:
+    def of(cls, planned: PlannedContour) -> Manner:
         """The manner of a planned contour."""
-        tabs = route.tabs
-        asides = [tuple(round(abs(r), 9) for r in some) for some in (route.passes, tabs.passes)]
-        overlap = route.overlap if route.contour.is_closed else 0.0
-        return cls(route.kind, _side(route), asides[0], tabs.length, len(tabs.each), asides[1], overlap)
+        tabs = planned.tabs
+        asides = [tuple(round(abs(r), 9) for r in some) for some in (planned.passes, tabs.passes)]
+        overlap = planned.overlap if planned.contour.is_closed else 0.0
+        return cls(planned.kind, _side(planned), asides[0], tabs.length, len(tabs.each), asides[1], overlap)
 
     @property
     def phrase(self) -> Phrase:
@@ -54,39 +54,46 @@ class Manner:
         return self.tabs > 0 and self.tab_passes != self.passes
 
 
-def _side(route: PlannedContour) -> str:
-    if not any(route.passes):
+def _side(planned: PlannedContour) -> str:
+    if not any(planned.passes):
         return "on"
-    if route.contour.is_closed:
-        return "outside" if route.is_outside else "inside"
-    return "right" if route.offset > 0 else "left"
+    if planned.contour.is_closed:
+        return "outside" if planned.is_outside else "inside"
+    return "right" if planned.offset > 0 else "left"
 
 
-def manners(routes: Sequence[PlannedContour]) -> dict[Manner, list[int]]:
+def manners(contours: Sequence[PlannedContour]) -> dict[Manner, list[int]]:
     """The manners, in the order of cutting, with the numbers of their contours."""
     alike: dict[Manner, list[int]] = {}
-    for route in routes:
-        alike.setdefault(Manner.of(route), []).append(route.turn)
+    for planned in contours:
+        alike.setdefault(Manner.of(planned), []).append(planned.turn)
     return alike
 
 
-def stops(routes: Sequence[PlannedContour]) -> Iterator[Phrase]:
+def stops(contours: Sequence[PlannedContour]) -> Iterator[Phrase]:
     """Reasons for stops of the machine, each with the contours; each takes two stops, wire off and wire threaded."""
-    twice = [route for route in routes if route.contour.is_closed and len(route.passes) > 1 and not route.tabs.each]
-    held = {name: [route for route in routes if route.tabs.each and route.frees == name] for name in ("part", "slug")}
-    many = [route for route in routes if len(route.tabs.each) > 1]
+    twice = [
+        planned
+        for planned in contours
+        if planned.contour.is_closed and len(planned.passes) > 1 and not planned.tabs.each
+    ]
+    held = {
+        name: [planned for planned in contours if planned.tabs.each and planned.frees == name]
+        for name in ("part", "slug")
+    }
+    many = [planned for planned in contours if len(planned.tabs.each) > 1]
     for group, code in (
-        (routes[1:], "stop-before"),
-        ([route for route in twice if route.frees == "slug"], "stop-slug"),
-        ([route for route in twice if route.frees == "part"], "stop-free"),
+        (contours[1:], "stop-before"),
+        ([planned for planned in twice if planned.frees == "slug"], "stop-slug"),
+        ([planned for planned in twice if planned.frees == "part"], "stop-free"),
         (many, "stop-further-hole"),
         (many, "stop-each-tab"),
         (held["part"], "stop-tab"),
         (held["slug"], "stop-slug-tab"),
-        ([route for route in held["slug"] if len(route.tabs.passes) > 1], "stop-slug-out"),
+        ([planned for planned in held["slug"] if len(planned.tabs.passes) > 1], "stop-slug-out"),
     ):
         if group:
-            yield Phrase(code, contours=numbered(route.turn for route in group))
+            yield Phrase(code, contours=numbered(planned.turn for planned in group))
 
 
 def numbered(numbers: Iterable[int]) -> Phrase:

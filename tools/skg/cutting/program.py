@@ -163,11 +163,11 @@ def _out(lead: Lead) -> Iterator[float | _Item]:
 RoutePart = str | float | _Item | Edge
 
 
-def parts_of(route: PlannedContour) -> Iterator[RoutePart]:
-    """A route in parts."""
+def parts_of(planned: PlannedContour) -> Iterator[RoutePart]:
+    """The route of a planned contour in parts."""
     here: XY | None = None
-    for index, run in enumerate(route.runs()):
-        hole = run.into.threaded if run.into else route.start
+    for index, run in enumerate(planned.runs()):
+        hole = run.into.threaded if run.into else planned.start
         if run.stop:
             yield f"REM STOP: {run.stop}"
         if not run.into:
@@ -177,7 +177,7 @@ def parts_of(route: PlannedContour) -> Iterator[RoutePart]:
             here = None
         parts = [
             *(_into(run.into, run.offset) if run.into else ()),
-            *_items(run, route.rung.has_fillets),
+            *_items(run, planned.rung.has_fillets),
             *(_out(run.out) if run.out else ()),
         ]
         for part in parts:
@@ -306,40 +306,40 @@ class _Writer:
 
 @dataclass
 class Program:
-    """A program that cuts routes; `title` goes into its first line, `parts_of` tells what each route is written as.
+    """A program that cuts contours; `title` goes into its first line, `parts_of` tells how each is written.
     `pattern`: the copies that they are, in order."""
 
-    routes: list[PlannedContour]
+    contours: list[PlannedContour]
     title: str
     parts_of: Callable[[PlannedContour], Iterable[RoutePart]] = parts_of
     pattern: Pattern | None = None
 
     def __post_init__(self) -> None:
         plain = re.sub(r"[^ -~]", "?", self.title.upper())[: _WIDTH - 30]
-        self.head = Step(f"REM {plain}: {_count(len(self.routes), 'CONTOUR')}")
+        self.head = Step(f"REM {plain}: {_count(len(self.contours), 'CONTOUR')}")
 
     def unnumbered(self) -> Iterator[list[Step]]:
-        """The statements without line numbers: the title, a list for each route, the end."""
+        """The statements without line numbers: the title, a list for each contour, the end."""
         yield [self.head]
         writer = _Writer(False)
-        for route in self.routes:
-            writer.write(_title(route), self.parts_of(route))
+        for planned in self.contours:
+            writer.write(_title(planned), self.parts_of(planned))
             yield writer.taken()
         yield [Step("END")]
 
     def numbered(self) -> str:
         """The program with line numbers; too many lines are a `UserError`. A part of which copies are cut is written
         once."""
-        pattern = self.pattern if self.pattern and self.pattern.has(self.routes) else None
-        routes = self.routes[: len(self.routes) // pattern.copies.count] if pattern else self.routes
-        pieces = [list(self.parts_of(route)) for route in routes]
+        pattern = self.pattern if self.pattern and self.pattern.has(self.contours) else None
+        contours = self.contours[: len(self.contours) // pattern.copies.count] if pattern else self.contours
+        pieces = [list(self.parts_of(planned)) for planned in contours]
         elsewhere = _Elsewhere() if not pattern else _AROUND if pattern.copies.around > 1 else _IN_ROWS
         writer = _Writer(True, elsewhere)
         writer.uses.update(
             (piece.letter, piece.text) for items in pieces for piece in items if isinstance(piece, _Item)
         )
-        for route, items in zip(routes, pieces, strict=True):
-            writer.write(_title(route), items)
+        for planned, items in zip(contours, pieces, strict=True):
+            writer.write(_title(planned), items)
         body = [statement.text for statement in writer.statements]
         if pattern:
             restored = ["RESTORE"] * bool(writer.data)
@@ -419,8 +419,8 @@ def _count(count: int, noun: str) -> str:
     return f"{count} {noun}{'S' if count > 1 else ''}"
 
 
-def _title(route: PlannedContour) -> str:
-    return f"{route.turn}. {describe(route)}"
+def _title(planned: PlannedContour) -> str:
+    return f"{planned.turn}. {describe(planned)}"
 
 
 def _kind(edge: Edge) -> str:
@@ -432,20 +432,20 @@ def _kind(edge: Edge) -> str:
     return "CIRCLE" if edge.is_circle else "ARC"
 
 
-def describe(route: PlannedContour) -> str:
+def describe(planned: PlannedContour) -> str:
     """Say what a contour is made of."""
-    contour = route.contour
+    contour = planned.contour
     kinds = Counter(map(_kind, contour.edges))
     parts = ", ".join(_count(kinds[noun], noun) for noun in _KINDS if noun in kinds)
     if not contour.is_closed:
         return f"OPEN: {parts}"
     sense = "COUNTER-CLOCKWISE" if contour.area > 0 else "CLOCKWISE"
-    return f"{'OPENING' if route.is_opening else 'OUTLINE'}, {sense}: {parts}"
+    return f"{'OPENING' if planned.is_opening else 'OUTLINE'}, {sense}: {parts}"
 
 
-def writes_fillets(route: PlannedContour) -> bool:
-    """Tell whether an arc between lines of a route is written as a fillet's radius."""
-    runs = (run.edges for run in route.runs())
-    return route.rung.has_fillets and any(
+def writes_fillets(planned: PlannedContour) -> bool:
+    """Tell whether an arc between lines of a contour is written as a fillet's radius."""
+    runs = (run.edges for run in planned.runs())
+    return planned.rung.has_fillets and any(
         _fillet(edges, index) is not None for edges in runs for index in range(len(edges))
     )

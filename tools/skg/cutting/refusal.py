@@ -30,37 +30,37 @@ def too_short(fit: float) -> Phrase:
     return Phrase("too-short-for-tab", fit=floor(fit * 1000 - 1e-6) / 1000)
 
 
-def without_tab(routes: Mapping[int, PlannedContour], fits: dict[int, float], machine: MachineSetup) -> UserError:
+def without_tab(contours: Mapping[int, PlannedContour], fits: dict[int, float], machine: MachineSetup) -> UserError:
     """Report contours that their tab does not fit: the shortest one."""
     number = min(fits, key=fits.__getitem__)
-    route = routes[number]
+    planned = contours[number]
     more = Phrase("more-without-tab", count=len(fits) - 1) if len(fits) > 1 else None
     sentence: dict[str, Any] = {
-        "name": route.name,
+        "name": planned.name,
         "why": too_short(fits[number]),
         "more": more,
         "leave": _or_leave(machine),
     }
-    return UserError(Finding("tab-too-long", contour=route.number, place=route.entry, **sentence))
+    return UserError(Finding("tab-too-long", contour=planned.number, place=planned.entry, **sentence))
 
 
-def without_room(routes: Mapping[int, PlannedContour], none: dict[int, NoRoom], machine: MachineSetup) -> UserError:
+def without_room(contours: Mapping[int, PlannedContour], none: dict[int, NoRoom], machine: MachineSetup) -> UserError:
     """Report contours that the wire does not get around: the tightest one."""
-    number, fit = tightest(routes, none)
-    route, no_room = routes[number], none[number]
+    number, fit = tightest(contours, none)
+    planned, no_room = contours[number], none[number]
     more = Phrase("more-without-room", count=len(none) - 1) if len(none) > 1 else None
-    sentence: dict[str, Any] = {"name": route.name, "why": no_room.why, "more": more, "leave": _or_leave(machine)}
-    about: dict[str, Any] = {"contour": route.number, "place": no_room.place}
+    sentence: dict[str, Any] = {"name": planned.name, "why": no_room.why, "more": more, "leave": _or_leave(machine)}
+    about: dict[str, Any] = {"contour": planned.number, "place": no_room.place}
     if no_room.is_crossing:
         return UserError(Finding("no-room-crossing", **about, **sentence))
-    return UserError(Finding("no-room", r=abs(route.widest), fit=_fit(route, fit), **about, **sentence))
+    return UserError(Finding("no-room", r=abs(planned.widest), fit=_fit(planned, fit), **about, **sentence))
 
 
-def _fit(route: PlannedContour, fit: float | None) -> Phrase | None:
+def _fit(planned: PlannedContour, fit: float | None) -> Phrase | None:
     """The largest offset that fits, with the last pass's where it belongs to another one; None: not looked for."""
     if not fit:
         return None if fit is None else Phrase("fits-nothing")
-    more = abs(route.widest) - abs(route.passes[-1])
+    more = abs(planned.widest) - abs(planned.passes[-1])
     if not more:
         return Phrase("fits-at-most", fit=fit)
     return Phrase("fits-in-passes", fit=fit, last=fit - more) if fit > more else Phrase("fits-no-pass", fit=fit)
@@ -77,56 +77,56 @@ def why_no_room(fault: Misfit) -> Phrase | None:
     return Phrase("room-slot", place=fault.place) if fault.is_missed else None
 
 
-def off_drawing(faults: list[Misfit], route: PlannedContour, machine: MachineSetup) -> UserError:
+def off_drawing(faults: list[Misfit], planned: PlannedContour, machine: MachineSetup) -> UserError:
     """Report where a contour's wire is not where the drawing has it: first where it comes into the contour."""
     fault = min(faults, key=lambda fault: not fault.is_into)
-    about: dict[str, Any] = {"name": route.name, "contour": route.number, "place": fault.place}
+    about: dict[str, Any] = {"name": planned.name, "contour": planned.number, "place": fault.place}
     if why := why_no_room(fault):
-        return UserError(Finding("into-itself", why=why, r=abs(route.widest), leave=_or_leave(machine), **about))
-    advice = _advice(fault, route, machine)
+        return UserError(Finding("into-itself", why=why, r=abs(planned.widest), leave=_or_leave(machine), **about))
+    advice = _advice(fault, planned, machine)
     if fault.off < inf:
         return UserError(Finding("off-drawing", off=1000 * fault.off, limit=1000 * LIMIT, advice=advice, **about))
     return UserError(Finding("far-off-drawing", advice=advice, **about))
 
 
-def refuse(checked: Checked, routes: list[PlannedContour], machine: MachineSetup) -> None:
+def refuse(checked: Checked, contours: list[PlannedContour], machine: MachineSetup) -> None:
     """Raise what is wrong with a tape, if anything is, as a `UserError`."""
     if checked.faults:
-        first = min(checked.faults, key=lambda fault: (not fault.is_into, fault.route)).route
-        faults = [fault for fault in checked.faults if fault.route == first]
-        raise off_drawing(faults, routes[first], machine)
+        first = min(checked.faults, key=lambda fault: (not fault.is_into, fault.contour)).contour
+        faults = [fault for fault in checked.faults if fault.contour == first]
+        raise off_drawing(faults, contours[first], machine)
     for cut in checked.cuts:
-        route = routes[cut.route]
-        if route.contour.is_closed and not route.tabs.each and cut.gap != (0, 0):
+        planned = contours[cut.contour]
+        if planned.contour.is_closed and not planned.tabs.each and cut.gap != (0, 0):
             dx, dy = cut.gap
-            where: dict[str, Any] = {"contour": route.number, "place": route.entry}
-            raise UserError(Finding("not-closed", name=route.name, dx=dx, dy=dy, **where))
+            where: dict[str, Any] = {"contour": planned.number, "place": planned.entry}
+            raise UserError(Finding("not-closed", name=planned.name, dx=dx, dy=dy, **where))
     for number, place in checked.fallen[:1]:
-        route = routes[number]
-        values: dict[str, Any] = {"name": route.name, "tab": route.tabs.length, "aside": abs(route.widest)}
-        code = "tab-holds-no-part" if route.frees == "part" else "tab-holds-no-slug"
-        raise UserError(Finding(code, contour=route.number, place=place, **values))
+        planned = contours[number]
+        values: dict[str, Any] = {"name": planned.name, "tab": planned.tabs.length, "aside": abs(planned.widest)}
+        code = "tab-holds-no-part" if planned.frees == "part" else "tab-holds-no-slug"
+        raise UserError(Finding(code, contour=planned.number, place=place, **values))
     spoilt = [
         crossing
         for crossing in checked.crossings
-        if all(routes[number].contour.is_closed for number in (crossing.route, crossing.other))
+        if all(contours[number].contour.is_closed for number in (crossing.contour, crossing.other))
     ]
     if spoilt and machine.into != "cut":
-        raise _spoilt(spoilt, routes, machine)
+        raise _spoilt(spoilt, contours, machine)
 
 
-def _spoilt(spoilt: list[Crossing], routes: list[PlannedContour], machine: MachineSetup) -> UserError:
+def _spoilt(spoilt: list[Crossing], contours: list[PlannedContour], machine: MachineSetup) -> UserError:
     """Report gouges: the deepest one."""
     worst = max(spoilt, key=lambda crossing: (crossing.is_through, crossing.depth))
     return UserError(
         Finding(
             "would-gouge",
-            name=routes[worst.route].name,
-            other=routes[worst.other].name,
+            name=contours[worst.contour].name,
+            other=contours[worst.other].name,
             depth=depth(worst),
             more=Phrase("more-would-gouge", count=len(spoilt) - 1) if len(spoilt) > 1 else None,
             cut=Phrase("or-cut-anyway") if machine.into else None,
-            contour=routes[worst.route].number,
+            contour=contours[worst.contour].number,
             place=worst.place,
         )
     )
@@ -137,11 +137,11 @@ def depth(crossing: Crossing) -> Phrase:
     return Phrase("depth-or-more" if crossing.is_through else "depth", depth=crossing.depth)
 
 
-def _advice(fault: Misfit, route: PlannedContour, machine: MachineSetup) -> Phrase:
+def _advice(fault: Misfit, planned: PlannedContour, machine: MachineSetup) -> Phrase:
     """Remedies for a wire that is off the drawing."""
     if not machine.is_without_drift:
         return Phrase("advice-no-drift")
-    edge = min(route.contour.edges, key=lambda edge: edge.far(fault.place))
+    edge = min(planned.contour.edges, key=lambda edge: edge.far(fault.place))
     noun = Phrase("edge-curve" if edge.nodes else "edge-arc" if edge.centre else "edge-line")
-    code = "advice-redraw-or" if any(route.passes) else "advice-redraw"
+    code = "advice-redraw-or" if any(planned.passes) else "advice-redraw"
     return Phrase(code, edge=noun, start=edge.start, end=edge.end, length=edge.length)

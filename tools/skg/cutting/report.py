@@ -32,7 +32,7 @@ _PAIRS = 100
 
 def findings(result: CutResult, offset: float = 0.0) -> list[Finding]:
     """Return the report on a tape. `offset`: as asked for, mm."""
-    routes = result.routes
+    contours = result.contours
     return [
         *_facts(result, offset),
         *(
@@ -40,18 +40,18 @@ def findings(result: CutResult, offset: float = 0.0) -> list[Finding]:
             for skipped in result.skipped[:_PLACES]
         ),
         *_more(result.skipped, "more-not-cut"),
-        *nesting.findings((route.turn, route.remarks.around) for route in routes),
-        *_corners(routes),
+        *nesting.findings((planned.turn, planned.remarks.around) for planned in contours),
+        *_corners(contours),
         *_crossings(result),
-        *walls.findings(routes),
+        *walls.findings(contours),
     ]
 
 
 def _facts(result: CutResult, offset: float) -> Iterator[Finding]:
     """Order, manners, length, how the tape was made and what the check found."""
-    machine, routes = result.machine, result.routes
-    kinds = Counter(route.kind for route in routes)
-    holes = [hole for hole, _ in holes_of(routes)]
+    machine, contours = result.machine, result.contours
+    kinds = Counter(planned.kind for planned in contours)
+    holes = [hole for hole, _ in holes_of(contours)]
     more = len(holes) - _PLACES
     yield Finding(
         "order-of-cutting",
@@ -60,7 +60,7 @@ def _facts(result: CutResult, offset: float) -> Iterator[Finding]:
         places=tuple(holes[:_PLACES]),
         more=Phrase("and-more", count=more) if more > 0 else None,
     )
-    yield from _manners(routes, offset)
+    yield from _manners(contours, offset)
     yield Finding(
         "cut-length",
         length=result.cut_length,
@@ -69,11 +69,11 @@ def _facts(result: CutResult, offset: float) -> Iterator[Finding]:
         blocks=Phrase("count-blocks", count=len(result.tape.blocks)),
         stops=Phrase("count-stops", count=len(result.tape.stops)),
     )
-    if reasons := tuple(stops(routes)):
+    if reasons := tuple(stops(contours)):
         yield Finding("two-stops", reasons=reasons)
     yield Finding("made-stored" if result.is_stored else "made-loading", rom=machine.rom, ram=machine.ram)
     drift = result.checked.drift
-    closing = None if drift else _closing(result.checked.cuts, routes)
+    closing = None if drift else _closing(result.checked.cuts, contours)
     yield Finding("checked", off=1000 * result.checked.off, closing=closing)
     if drift:
         yield Finding("drift", drift=1000 * drift)
@@ -100,95 +100,95 @@ def pace(machine: MachineSetup) -> Phrase:
 
 def _crossings(result: CutResult) -> Iterator[Finding]:
     """Cuts that come into other contours."""
-    routes, crossings = result.routes, result.checked.crossings
+    contours, crossings = result.contours, result.checked.crossings
     for gouge in crossings[:_PLACES]:
-        route = routes[gouge.route]
-        turns = {"turn": route.turn, "other": routes[gouge.other].turn}
-        yield Finding("gouge", depth=depth(gouge), contour=route.number, place=gouge.place, **turns)
+        planned = contours[gouge.contour]
+        turns = {"turn": planned.turn, "other": contours[gouge.other].turn}
+        yield Finding("gouge", depth=depth(gouge), contour=planned.number, place=gouge.place, **turns)
     if more := crossings[_PLACES:]:
         pairs = (
-            Phrase("pair-into", turn=routes[gouge.route].turn, other=routes[gouge.other].turn)
+            Phrase("pair-into", turn=contours[gouge.contour].turn, other=contours[gouge.other].turn)
             for gouge in more[:_PAIRS]
         )
         yield Finding("more-gouges", count=len(more), pairs=tuple(pairs), rest=" …" * (len(more) > _PAIRS))
 
 
-def _manners(routes: list[PlannedContour], offset: float) -> Iterator[Finding]:
+def _manners(contours: list[PlannedContour], offset: float) -> Iterator[Finding]:
     """The way contours are cut, those alike in one line."""
-    alike = manners(routes)
+    alike = manners(contours)
     for manner, numbers in list(alike.items())[:_MANNERS]:
         kind = kind_of(manner.kind, len(numbers))
         yield Finding("manner-of", contours=numbered(numbers), kind=kind, manner=manner.phrase)
     if more := sum(len(numbers) for numbers in list(alike.values())[_MANNERS:]):
         yield Finding("more-manners", count=more)
     if not any(any(manner.passes) for manner in alike):
-        if not offset and any(route.contour.is_closed for route in routes):
+        if not offset and any(planned.contour.is_closed for planned in contours):
             yield Finding("on-the-line")
         return
     free = [
-        route.turn
-        for route in routes
-        if route.contour.is_closed and len(route.passes) > 1 and not route.tabs.each and route.frees == "part"
+        planned.turn
+        for planned in contours
+        if planned.contour.is_closed and len(planned.passes) > 1 and not planned.tabs.each and planned.frees == "part"
     ]
     if free:
         yield Finding("parts-free", count=len(free), contours=in_brackets(free))
-    yield from _proud(routes)
-    yield from _sides(routes)
-    if on := sum(not route.contour.is_closed and not any(route.passes) for route in routes):
+    yield from _proud(contours)
+    yield from _sides(contours)
+    if on := sum(not planned.contour.is_closed and not any(planned.passes) for planned in contours):
         yield Finding("open-on-line", count=on)
 
 
-def _proud(routes: list[PlannedContour]) -> Iterator[Finding]:
+def _proud(contours: list[PlannedContour]) -> Iterator[Finding]:
     """Tabs that leave more than the last pass, those of a height together."""
     heights: dict[float, list[int]] = {}
-    for route in routes:
-        if route.proud > _FLUSH:
-            heights.setdefault(round(route.proud, 6), []).append(route.turn)
+    for planned in contours:
+        if planned.proud > _FLUSH:
+            heights.setdefault(round(planned.proud, 6), []).append(planned.turn)
     for height, turns in heights.items():
         yield Finding("tabs-proud", count=len(turns), height=height, contours=in_brackets(turns))
 
 
-def _sides(routes: list[PlannedContour]) -> Iterator[Finding]:
+def _sides(contours: list[PlannedContour]) -> Iterator[Finding]:
     """Contours that the wire runs beside on the side that --side says, not on that of a part with openings."""
-    closed = [route for route in routes if route.contour.is_closed and route.passes[-1]]
-    if not any(route.depth for route in closed):
+    closed = [planned for planned in contours if planned.contour.is_closed and planned.passes[-1]]
+    if not any(planned.depth for planned in closed):
         return
     for is_opening in (True, False):
-        affected = [route for route in closed if route.is_opening is is_opening is route.is_outside]
+        affected = [planned for planned in closed if planned.is_opening is is_opening is planned.is_outside]
         if affected:
-            first, *others = dict.fromkeys(2 * abs(route.passes[-1]) for route in affected)
+            first, *others = dict.fromkeys(2 * abs(planned.passes[-1]) for planned in affected)
             wide: float | Phrase = first
             for other in others:
                 wide = Phrase("one-or-other", first=wide, other=other)
-            contours = in_brackets([route.turn for route in affected])
             code = "side-of-openings" if is_opening else "side-of-outlines"
-            yield Finding(code, count=len(affected), contours=contours, wide=wide)
+            turns = in_brackets([planned.turn for planned in affected])
+            yield Finding(code, count=len(affected), contours=turns, wide=wide)
 
 
-def _corners(routes: list[PlannedContour]) -> list[Finding]:
+def _corners(contours: list[PlannedContour]) -> list[Finding]:
     """Contours that the wire cannot follow everywhere: those that it stays off most first."""
     kinds: list[list[Finding]] = [[] for _ in range(5)]
     straight, around, chords, loops, whiskers = kinds
-    for route in routes:
-        about = {"turn": route.turn, "contour": route.number}
+    for planned in contours:
+        about = {"turn": planned.turn, "contour": planned.number}
         for code, kind, trims in (
-            ("loops", loops, route.remarks.loops),
-            ("whiskers", whiskers, route.remarks.whiskers),
+            ("loops", loops, planned.remarks.loops),
+            ("whiskers", whiskers, planned.remarks.whiskers),
         ):
             if trims:
                 longest = max(trim.length for trim in trims)
                 kind.append(Finding(code, count=len(trims), length=longest, place=trims[0].place, **about))
-        if route.rung.lead is LeadShape.CRAMPED:
-            code = "straight-lead" if route.is_square else "straight-lead-aslant"
-            straight.append(Finding(code, place=route.entry, **about))
-        reason = route.rung.wire and route.rung.wire.reason
+        if planned.rung.lead is LeadShape.CRAMPED:
+            code = "straight-lead" if planned.is_square else "straight-lead-aslant"
+            straight.append(Finding(code, place=planned.entry, **about))
+        reason = planned.rung.wire and planned.rung.wire.reason
         if reason is Reason.TIPS:
-            around.append(Finding("around-tips", place=route.entry, **about))
+            around.append(Finding("around-tips", place=planned.entry, **about))
         elif reason is Reason.CHORDS:
-            chords.append(Finding("in-chords", place=route.entry, **about))
+            chords.append(Finding("in-chords", place=planned.entry, **about))
     narrow = [
-        Finding("narrow-corners", turn=route.turn, far=far, contour=route.number, place=place)
-        for far, place, route in sorted(corners(routes), key=lambda corner: -corner.far)
+        Finding("narrow-corners", turn=planned.turn, far=far, contour=planned.number, place=place)
+        for far, place, planned in sorted(corners(contours), key=lambda corner: -corner.far)
         if far > LIMIT
     ]
     return [finding for kind in (*kinds, narrow) for finding in _first(kind)]
@@ -205,6 +205,8 @@ def _more(every: Sequence, code: str) -> list[Finding]:
     return [Finding(code, count=more)] * (more > 0)
 
 
-def _closing(cuts: list[Stretch], routes: list[PlannedContour]) -> Phrase | None:
-    closed = {cut.route for cut in cuts if routes[cut.route].contour.is_closed and not routes[cut.route].tabs.each}
+def _closing(cuts: list[Stretch], contours: list[PlannedContour]) -> Phrase | None:
+    closed = {
+        cut.contour for cut in cuts if contours[cut.contour].contour.is_closed and not contours[cut.contour].tabs.each
+    }
     return Phrase("closing", count=len(closed)) if closed else None

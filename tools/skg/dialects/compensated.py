@@ -21,14 +21,14 @@ from skg.tape.dialect import GcodeDialect
 from skg.tape.gcode import GcodeWriter, Spot, decimal
 
 
-def compensated(routes: Sequence[PlannedContour], dialect: GcodeDialect, feed: float) -> tuple[str, list[Piece]]:
+def compensated(contours: Sequence[PlannedContour], dialect: GcodeDialect, feed: float) -> tuple[str, list[Piece]]:
     """Return the G-code that cuts planned contours with the dialect's words for an offset, and its path, mm, as it is
     without an offset; `feed` is mm/min.
 
     A contour of which the wire leaves edges out is a `UserError`: a control would stop there.
     """
-    routes = [_as_drawn(route) for route in routes]
-    offsets = _offsets(routes)
+    contours = [_as_drawn(planned) for planned in contours]
+    offsets = _offsets(contours)
     words, writer = dialect.compensation, GcodeWriter(dialect)
     assert words  # (its caller asks for them)
     path: list[Piece] = []
@@ -40,9 +40,9 @@ def compensated(routes: Sequence[PlannedContour], dialect: GcodeDialect, feed: f
     writer.all_of(dialect.head)
     if words.define:
         writer.all_of(filled(words.define, offset) for offset in offsets)
-    for route in routes:
-        for run in route.runs():
-            hole = _spot(run.into.threaded if run.into else route.start)
+    for planned in contours:
+        for run in planned.runs():
+            hole = _spot(run.into.threaded if run.into else planned.start)
             if writer.spot is None:
                 writer.begin(hole)
             elif hole != writer.spot:
@@ -56,16 +56,16 @@ def compensated(routes: Sequence[PlannedContour], dialect: GcodeDialect, feed: f
     return writer.text, path
 
 
-def _offsets(routes: Sequence[PlannedContour]) -> list[int]:
-    """The offsets of routes along their contours, by their numbers from 1, um."""
-    return list(dict.fromkeys(_beside(run) for route in routes for run in route.runs() if run.offset))
+def _offsets(contours: Sequence[PlannedContour]) -> list[int]:
+    """The offsets of planned contours along the drawing, by their numbers from 1, um."""
+    return list(dict.fromkeys(_beside(run) for planned in contours for run in planned.runs() if run.offset))
 
 
-def to_be_set(routes: Sequence[PlannedContour], dialect: GcodeDialect) -> list[Finding]:
-    """Tell which offsets the control must have for the program of some routes, where that does not define them."""
+def to_be_set(contours: Sequence[PlannedContour], dialect: GcodeDialect) -> list[Finding]:
+    """Tell which offsets the control must have for the program of some contours, where that does not define them."""
     if not dialect.compensation or dialect.compensation.define:
         return []
-    offsets = _offsets([_as_drawn(route) for route in routes])
+    offsets = _offsets([_as_drawn(planned) for planned in contours])
     numbered = (Phrase("offset-of-number", number=at, offset=offset / 1000) for at, offset in enumerate(offsets, 1))
     return [Finding("offsets-to-be-set", offsets=tuple(numbered))] if offsets else []
 
@@ -118,16 +118,16 @@ def _ways(run: Run) -> tuple[tuple[Edge, ...], tuple[Edge, ...]]:
     return arc(run.into, True), arc(run.out, False)
 
 
-def _as_drawn(route: PlannedContour) -> PlannedContour:
-    """A route along its contour."""
-    wire = route.rung.wire
+def _as_drawn(planned: PlannedContour) -> PlannedContour:
+    """The same along its contour."""
+    wire = planned.rung.wire
     if not wire:
-        return route
+        return planned
     if wire.reason is Reason.EDGES:
         raise UserError(
-            Finding("edges-left-out", name=route.name, contour=route.number, place=route.entry),
+            Finding("edges-left-out", name=planned.name, contour=planned.number, place=planned.entry),
         )
-    return route.on_rung(wire=None)
+    return planned.on_rung(wire=None)
 
 
 def _beside(run: Run) -> int:

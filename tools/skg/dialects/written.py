@@ -15,14 +15,14 @@ from skg.tape.layout import place
 
 
 def machine_program(
-    routes: Sequence[PlannedContour], tape: Tape, positions: str, feed: float, dialect: GcodeDialect, name: str
+    contours: Sequence[PlannedContour], tape: Tape, positions: str, feed: float, dialect: GcodeDialect, name: str
 ) -> str:
     """The program of a tape that cuts planned contours: with an offset in the control, where the machine has one and
     the wire runs beside contours. `feed`: mm/min; `name`: the file's, for messages."""
-    if dialect.compensation and any(run.offset for route in routes for run in route.runs()):
-        text, path = compensated(routes, dialect, feed)
+    if dialect.compensation and any(run.offset for planned in contours for run in planned.runs()):
+        text, path = compensated(contours, dialect, feed)
     else:
-        home = micrometres(routes[0].start[0]), micrometres(routes[0].start[1])
+        home = micrometres(contours[0].start[0]), micrometres(contours[0].start[1])
         text = gcode.write(tape, home, (feed, feed), None, positions, dialect)
         path = [
             _in_mm(placed) for route in place(tape, home, positions) if not route.is_move for placed in route.blocks

@@ -3,7 +3,7 @@
 The code that finds something out makes a `Finding` of it, and composes no sentence:
 
     raise UserError(Finding("layer-twice", layer=name).within(file, "[[layer]] 2"))
-    findings.append(Finding("no-tab-here", contour=route.number, place=route.entry, length=route.tab))
+    findings.append(Finding("no-tab-here", contour=planned.number, place=planned.entry, length=planned.tab))
 
 `en.po` and `zh.po` have one whole sentence for each code, with the values by their names:
 

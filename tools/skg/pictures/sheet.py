@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, PathPatch, Polygon
 from matplotlib.transforms import Affine2D
 
-from skg.checking.check import drawn
+from skg.checking.check import nominal
 from skg.cutting.holes import holes_of
 from skg.cutting.ladder import CutResult
 from skg.cutting.manner import manners, stops
@@ -163,10 +163,10 @@ class SetupSheet:
 
     def __init__(self, result: CutResult, facts: Facts) -> None:
         self.result, self.facts = result, facts
-        self.manners = manners(result.routes)
+        self.manners = manners(result.contours)
         self.notes = self._notes()
         #: The start holes, each with its contour.
-        self.holes = [(hole, route) for route in result.routes for hole in route.holes]
+        self.holes = [(hole, planned) for planned in result.contours for hole in planned.holes]
         rows = len(self.holes)
         self.foot = _MARGIN + _HEAD + len(self.notes) * _NOTE
         per_column = [self._rows_in(page[1] - _MARGIN - self.foot) for page in (_A4, _A3)]
@@ -209,7 +209,7 @@ class SetupSheet:
         if len(texts) > _MANNERS:
             texts[_MANNERS:] = [text(Phrase("sheet-more-manners", count=len(texts) - _MANNERS))]
         lines = [texts[index : index + 2] for index in range(0, len(texts), 2)]
-        if reasons := tuple(stops(self.result.routes)):
+        if reasons := tuple(stops(self.result.contours)):
             lines.insert(0, [text(Phrase("two-stops", reasons=reasons))])
         if self.facts.cost:
             lines.insert(0, [text(finding) for finding in self.facts.cost])
@@ -217,7 +217,7 @@ class SetupSheet:
 
     def _measure(self) -> None:
         """Measure the part, and the part with its start holes."""
-        pieces = [piece for route in self.result.routes for piece in drawn(route)]
+        pieces = [piece for planned in self.result.contours for piece in nominal(planned)]
         self.curve = outlines(pieces)
         points = np.array([point for piece in pieces for point in piece.extremes()])
         # (a bound of -1e-17 is 0)
@@ -273,7 +273,7 @@ class SetupSheet:
 
     def _part(self) -> None:
         self._patch(self.curve, 1.0, edgecolor=_INK, linewidth=0.7, zorder=3, gid="part")
-        lines = [edge.points() for route in self.result.routes for edge in route.contour.edges]
+        lines = [edge.points() for planned in self.result.contours for edge in planned.contour.edges]
         starts = self._all_on_paper(place for points in lines for place in points[:-1])
         self._take_lines(starts, self._all_on_paper(place for points in lines for place in points[1:]))
 
@@ -299,7 +299,7 @@ class SetupSheet:
                 for side in ([cut.starts for cut in cuts], [cut.ends for cut in cuts])
             )
             self._take_lines(starts, ends)
-            if any(abs(route.widest) * self.scale > _GRID for route in self.result.routes):
+            if any(abs(planned.widest) * self.scale > _GRID for planned in self.result.contours):
                 # (elsewhere the wire's path is where the part's lines are)
                 tenths = Affine2D().scale(0.001 * self.scale).translate(*self.shift).scale(10)
                 path = [places / 10 for places in curve.to_polygons(tenths, closed_only=False)]
@@ -307,17 +307,17 @@ class SetupSheet:
         holes = self._all_on_paper(hole for hole, _ in self.holes)
         moves = np.stack([holes[:-1], holes[1:]], axis=1)
         self._lines(moves, edgecolor=_GREY, linewidth=0.3, linestyle=(0, (6, 4)), zorder=1, gid="moves")
-        arrows = [arrow for route in self.result.routes if (arrow := self._arrow(route))]
+        arrows = [arrow for planned in self.result.contours if (arrow := self._arrow(planned))]
         if arrows:
             places = np.array(arrows)
             self._lines(places, edgecolor=_WIRE, linewidth=0.7, capstyle="projecting", zorder=4, gid="arrows")
             self._take_lines(*(places[:, rows].reshape(-1, 2) for rows in _STEPS))
 
-    def _arrow(self, route: PlannedContour) -> list[XY]:
+    def _arrow(self, planned: PlannedContour) -> list[XY]:
         """An arrow on the longest edge of a contour shows the way and covers nothing: it is open and thin. None where
         it would be too small."""
-        edge = max(route.chain, key=lambda edge: edge.length)
-        size = min(_ARROW, self.scale * min(edge.length / (10 if edge.is_circle else 4), route.room))
+        edge = max(planned.chain, key=lambda edge: edge.length)
+        size = min(_ARROW, self.scale * min(edge.length / (10 if edge.is_circle else 4), planned.room))
         if size <= 0.3:
             return []
         x, y = self.on_paper(edge.at(0.5))
@@ -387,9 +387,9 @@ class SetupSheet:
 
     def _radii(self, places: np.ndarray) -> np.ndarray:
         """The radii of the marks at these places: a mark covers neither its contour nor the next mark."""
-        routes = [route for _, route in self.holes]
-        rooms = np.array([route.room for route in routes]) * self.scale
-        leads = np.array([distance(route.start, route.entry) for route in routes]) * self.scale
+        contours = [planned for _, planned in self.holes]
+        rooms = np.array([planned.room for planned in contours]) * self.scale
+        leads = np.array([distance(planned.start, planned.entry) for planned in contours]) * self.scale
         points, apart = shapely.points(places), np.full(len(places), np.inf)
         (indices, _), distances = shapely.STRtree(points).query_nearest(
             points, exclusive=True, return_distance=True, all_matches=False
@@ -438,9 +438,9 @@ class SetupSheet:
     def _table(self) -> None:
         """Number, place, kind and length of each start hole."""
         table = self.table
-        lengths = dict.fromkeys((route.turn for _, route in self.holes), 0.0)
+        lengths = dict.fromkeys((planned.turn for _, planned in self.holes), 0.0)
         for cut in self.result.checked.cuts:
-            lengths[self.result.routes[cut.route].turn] += cut.length
+            lengths[self.result.contours[cut.contour].turn] += cut.length
         letters = {number: _letters(index) for index, numbers in enumerate(self.manners.values()) for number in numbers}
         count = min(len(self.holes), table.columns * table.rows)
         row_height, column_width = _ROW * self.larger, _COLUMN * self.larger
@@ -453,12 +453,12 @@ class SetupSheet:
             if row == 0:
                 contour, manner, cut = (text(Phrase(f"sheet-{name}")) for name in ("contour", "as", "mm-cut"))
                 self._row(x, top, (text(Phrase("sheet-no")), "x, mm", "y, mm", contour, manner, cut), _GREY)
-            hole, route = self.holes[index]
+            hole, planned = self.holes[index]
             # (-0.0001 is 0.000)
             x_, y_ = (f"{round(part, 3) + 0.0:.3f}" for part in hole)
-            cells = (str(route.turn), x_, y_, _called(route), letters[route.turn])
+            cells = (str(planned.turn), x_, y_, _called(planned), letters[planned.turn])
             # (that of a contour with several is told once)
-            length = lengths[route.turn] if hole == route.start else 0.0
+            length = lengths[planned.turn] if hole == planned.start else 0.0
             told = f"{length:.{length < 1e5:d}f}" if length else ""
             self._row(x, top - (row + 1) * row_height, (*cells, told), _INK)
         if count < len(self.holes):
@@ -486,7 +486,7 @@ class SetupSheet:
         wire = untold
         if setup.wire is not None:
             wire = text(Phrase("sheet-wire-and-gap", wire=setup.wire, gap=setup.gap or 0.0))
-        holes = Phrase("count-holes", count=len(holes_of(result.routes)))
+        holes = Phrase("count-holes", count=len(holes_of(result.contours)))
         blocks = Phrase("count-blocks", count=len(result.tape.blocks))
         without = Phrase("sheet-without-room", count=left_out) if left_out else None
         ratio = f"{self.scale:.4g}:1" if self.scale >= 1 else f"1:{1 / self.scale:.4g}"
@@ -496,7 +496,7 @@ class SetupSheet:
             (
                 ("size", f"{short(self.high[0] - self.low[0])} x {short(self.high[1] - self.low[1])} mm"),
                 ("units", facts.units),
-                ("contours", text(Phrase("sheet-contours-and-holes", contours=len(result.routes), holes=holes))),
+                ("contours", text(Phrase("sheet-contours-and-holes", contours=len(result.contours), holes=holes))),
                 ("numbers", text(Phrase("sheet-in-order", without=without))),
             ),
             (
@@ -506,7 +506,7 @@ class SetupSheet:
                 ("rom", setup.rom),
             ),
             (
-                ("start", f"{shown(result.routes[0].start)} mm"),
+                ("start", f"{shown(result.contours[0].start)} mm"),
                 ("stops", text(Phrase("sheet-stops-and-blocks", stops=len(result.tape.stops), blocks=blocks))),
                 ("length", f"{result.cut_length:.1f} mm"),
                 ("time", text(Phrase("sheet-time-at", time=duration(result.seconds), pace=pace(setup)))),
@@ -531,11 +531,11 @@ def _way(samples: Places) -> float:
     return float(np.arctan2(v - y, u - x))
 
 
-def _called(route: PlannedContour) -> str:
+def _called(planned: PlannedContour) -> str:
     """Return a contour's kind and direction."""
-    if not route.contour.is_closed:
+    if not planned.contour.is_closed:
         return text(Phrase("kind-open"))
-    return text(Phrase("sheet-ccw" if route.contour.area > 0 else "sheet-cw", kind=kind_of(route.kind)))
+    return text(Phrase("sheet-ccw" if planned.contour.area > 0 else "sheet-cw", kind=kind_of(planned.kind)))
 
 
 def _letters(number: int) -> str:

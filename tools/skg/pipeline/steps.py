@@ -258,12 +258,12 @@ def cut_all(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> list[
 def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> CutDrawing:
     """Make the tape and check it; nothing is returned that is wrong."""
     progress("plan", 0, len(drawn.contours))
-    routes = plan_drawing(job, drawn)
+    contours = plan_drawing(job, drawn)
     placement = drawn.placement(job)
     drawn.placed(job).release()
     with placing.told_as_drawn(placement, *drawn.source):
         pattern = drawn.pattern(job)
-        result = make(routes, job.drawing, job.machine, progress, pattern)
+        result = make(contours, job.drawing, job.machine, progress, pattern)
     left = {number: UNWANTED for number, want in enumerate(wanted_of(job, drawn)) if not want.cut}
     if drawn.member:
         others = enumerate(wanted_of(job, replace(drawn, member="")))
@@ -290,17 +290,17 @@ def _beside_file(result: CutResult, job: Job, drawn: DrawnJob, account: Account,
     named = [Named(mend.place, mend.size) for mend in account.mends]
     copies = drawn.copies(job)
     # (those of the first copy are where the drawing has them)
-    count = len(result.routes) // copies.count
-    for route in result.routes[:count]:
-        trims = (*route.remarks.loops, *route.remarks.whiskers)
+    count = len(result.contours) // copies.count
+    for planned in result.contours[:count]:
+        trims = (*planned.remarks.loops, *planned.remarks.whiskers)
         named += [Named(placement.back.place(trim.place), trim.length / scale) for trim in trims]
     wanted = wanted_of(job, replace(drawn, member="")) if drawn.sized else []
     sizes = {number: pairing.growth(wanted[number], drawn.member) for number in drawn.sized}
     worst = 0.0
     for number in range(copies.count):
-        contours = [route.contour for route in result.routes[number * count : (number + 1) * count]]
+        contours = [planned.contour for planned in result.contours[number * count : (number + 1) * count]]
         contours = as_drawn(contours, job.place, placement.origin, copies, number)
-        numbers = [route.number for route in result.routes[number * count : (number + 1) * count]]
+        numbers = [planned.number for planned in result.contours[number * count : (number + 1) * count]]
         offs = [
             off_size(contour, drawn.contours[own], sizes[own])
             for contour, own in zip(contours, numbers, strict=True)
@@ -338,12 +338,12 @@ def _findings(
         (any(want.tab for want in others), "part"),
         (any(want.slug_tab for want in others), "slug"),
     ):
-        if is_asked and not any(route.tabs.each for route in result.routes if route.frees == frees):
+        if is_asked and not any(planned.tabs.each for planned in result.contours if planned.frees == frees):
             report.append(Finding(f"no-{frees}-has-tab"))
     if any(overlap.kind != "drawn twice" for overlap in account.overlaps):
         from skg.checking import split_parts
 
-        report += [placing.as_drawn(finding, placement) for finding in split_parts.findings(result.routes)]
+        report += [placing.as_drawn(finding, placement) for finding in split_parts.findings(result.contours)]
     if not drawn.member:
         return report
     whole = replace(drawn, member="")

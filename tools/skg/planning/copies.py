@@ -41,10 +41,10 @@ class Pattern:
         x, y = copies.step or (0.0, 0.0)
         return [Placement(at=(column * x, row * y)) for row in range(copies.rows) for column in range(copies.columns)]
 
-    def all_of(self, routes: Sequence[PlannedContour]) -> list[PlannedContour]:
+    def all_of(self, contours: Sequence[PlannedContour]) -> list[PlannedContour]:
         """All copies of planned contours, one after the other."""
-        every = [elsewhere(route, placement) for placement in self.placements for route in routes]
-        return [replace(route, turn=turn) for turn, route in enumerate(every, 1)]
+        every = [elsewhere(planned, placement) for placement in self.placements for planned in contours]
+        return [replace(planned, turn=turn) for turn, planned in enumerate(every, 1)]
 
     def beside(self, contours: Sequence[Contour], reach: float) -> list[Contour]:
         """The contours of copies that may be within reach (mm) of one: around a copy in the midst of all."""
@@ -74,24 +74,24 @@ class Pattern:
             if row or column
         ]
 
-    def has(self, routes: Sequence[PlannedContour]) -> bool:
+    def has(self, contours: Sequence[PlannedContour]) -> bool:
         """Tell whether some planned contours are copies of the first ones of them."""
-        count = len(routes) // self.copies.count
-        return count * self.copies.count == len(routes) and self.all_of(routes[:count]) == list(routes)
+        count = len(contours) // self.copies.count
+        return count * self.copies.count == len(contours) and self.all_of(contours[:count]) == list(contours)
 
 
-def elsewhere(route: PlannedContour, placement: Placement) -> PlannedContour:
+def elsewhere(planned: PlannedContour, placement: Placement) -> PlannedContour:
     """A planned contour at another place, turned."""
     if placement.is_nothing:
-        return route
-    edge = route.contour.edges[0]
-    if edge.is_circle and not route.tabs.each and route.start == edge.centre:
+        return planned
+    edge = planned.contour.edges[0]
+    if edge.is_circle and not planned.tabs.each and planned.start == edge.centre:
         # (from its very centre a circle is entered at its +X side, however it is turned: language.md, section 4.2)
         x, y = placement.place(edge.centre)
         placement = Placement(at=(x - edge.centre[0], y - edge.centre[1]))
     go = placement.place
-    tabs = tuple(tab._replace(before=go(tab.before), behind=go(tab.behind)) for tab in route.tabs.each)
-    wire, remarks = route.rung.wire, route.remarks
+    tabs = tuple(tab._replace(before=go(tab.before), behind=go(tab.behind)) for tab in planned.tabs.each)
+    wire, remarks = planned.rung.wire, planned.remarks
     if wire:
         paths = tuple(tuple(map(placement.edge, path)) for path in wire.paths)
         wire = replace(wire, paths=paths, entered=wire.entered and go(wire.entered))
@@ -102,11 +102,11 @@ def elsewhere(route: PlannedContour, placement: Placement) -> PlannedContour:
     if around and around.gap:
         around = around._replace(gap=around.gap._replace(place=go(around.gap.place)))
     return replace(
-        route,
-        contour=placement.contour(route.contour),
-        start=go(route.start),
-        tabs=replace(route.tabs, each=tabs),
-        rung=replace(route.rung, wire=wire),
+        planned,
+        contour=placement.contour(planned.contour),
+        start=go(planned.start),
+        tabs=replace(planned.tabs, each=tabs),
+        rung=replace(planned.rung, wire=wire),
         remarks=replace(remarks, loops=loops, whiskers=whiskers, around=around),
     )
 

@@ -547,15 +547,15 @@ def plan_nested(
     given = _given_starts(nesting, wanted, list(starts))
     asked = {number: (want, given.get(number)) for number, want in enumerate(wanted) if want.cut}
     new = {number: request for number, request in asked.items() if number not in before or before[number][0] != request}
-    for route in _Planner(nesting).plan(new):
-        is_auto = wanted[route.number].side == "auto"
-        around = nesting.around.get(route.number) if is_auto else None
-        before[route.number] = new[route.number], _lying_in(route, around) if around else route
+    for planned in _Planner(nesting).plan(new):
+        is_auto = wanted[planned.number].side == "auto"
+        around = nesting.around.get(planned.number) if is_auto else None
+        before[planned.number] = new[planned.number], _lying_in(planned, around) if around else planned
     ordered = _as_wanted(_ordered([before[number][1] for number in asked]), wanted)
-    for turn, route in enumerate(ordered, 1):
-        if route.turn != turn:
-            before[route.number] = asked[route.number], replace(route, turn=turn)
-    ordered = [before[route.number][1] for route in ordered]
+    for turn, planned in enumerate(ordered, 1):
+        if planned.turn != turn:
+            before[planned.number] = asked[planned.number], replace(planned, turn=turn)
+    ordered = [before[planned.number][1] for planned in ordered]
     if any(want.order is not None for want in wanted):
         _refuse_outer_first(ordered, nesting.holding)
     return ordered
@@ -579,28 +579,30 @@ def _oriented(contour: Contour, wanted: Wanted, depth: int) -> tuple[Contour, fl
     return contour, sign
 
 
-def _ordered(routes: list[PlannedContour]) -> list[PlannedContour]:
-    """Inner routes before those around them, then the nearest next."""
-    places = np.array([route.start for route in routes], float).reshape(-1, 2)
-    depths = np.array([route.depth for route in routes], int)
+def _ordered(contours: list[PlannedContour]) -> list[PlannedContour]:
+    """Inner contours before those around them, then the nearest next."""
+    places = np.array([planned.start for planned in contours], float).reshape(-1, 2)
+    depths = np.array([planned.depth for planned in contours], int)
     ordered: list[PlannedContour] = []
     at_now = 0.0, 0.0
     for depth in sorted(set(depths.tolist()), reverse=True):
         indices = np.flatnonzero(depths == depth)
-        ordered += [routes[index] for index in indices[nearest_order(places[indices], at_now)].tolist()]
+        ordered += [contours[index] for index in indices[nearest_order(places[indices], at_now)].tolist()]
         at_now = ordered[-1].start
     return ordered
 
 
-def _as_wanted(routes: list[PlannedContour], wanted: Sequence[Wanted]) -> list[PlannedContour]:
-    """Put the routes that have a wanted order to their places; the others keep theirs among themselves."""
-    placed = {route.number: order for route in routes if (order := wanted[route.number].order) is not None}
+def _as_wanted(contours: list[PlannedContour], wanted: Sequence[Wanted]) -> list[PlannedContour]:
+    """Put the contours that have a wanted order to their places; the others keep theirs among themselves."""
+    placed = {planned.number: order for planned in contours if (order := wanted[planned.number].order) is not None}
     if not placed:
-        return routes
-    free = iter([route for route in routes if route.number not in placed])
-    ranked = sorted((route for route in routes if route.number in placed), key=lambda route: placed[route.number])
+        return contours
+    free = iter([planned for planned in contours if planned.number not in placed])
+    ranked = sorted(
+        (planned for planned in contours if planned.number in placed), key=lambda planned: placed[planned.number]
+    )
     merged: list[PlannedContour] = []
-    while len(merged) < len(routes):
+    while len(merged) < len(contours):
         if ranked and placed[ranked[0].number] <= len(merged) + 1:
             merged.append(ranked.pop(0))
         else:
@@ -608,14 +610,14 @@ def _as_wanted(routes: list[PlannedContour], wanted: Sequence[Wanted]) -> list[P
     return merged
 
 
-def _refuse_outer_first(routes: list[PlannedContour], holding: Holding) -> None:
+def _refuse_outer_first(contours: list[PlannedContour], holding: Holding) -> None:
     """Refuse an order that cuts a contour before what lies in it: that would fall with the part or the slug."""
-    numbered = {route.number: route for route in routes}
-    around = holding.around([route.contour.edges[0].at(0.5) for route in routes])
-    for route, holders in zip(routes, around, strict=True):
+    numbered = {planned.number: planned for planned in contours}
+    around = holding.around([planned.contour.edges[0].at(0.5) for planned in contours])
+    for planned, holders in zip(contours, around, strict=True):
         for outer in (numbered[number] for number in holders if number in numbered):
-            if outer.depth < route.depth and outer.turn < route.turn:
-                names = {"outer": outer.name, "inner": route.name}
+            if outer.depth < planned.depth and outer.turn < planned.turn:
+                names = {"outer": outer.name, "inner": planned.name}
                 raise UserError(Finding("outer-first", contour=outer.number, place=outer.entry, **names))
 
 

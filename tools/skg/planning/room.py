@@ -18,7 +18,7 @@ _MANY = 2000
 _MEASURED = 5
 
 
-def tightest(routes: Mapping[int, PlannedContour], none: Mapping[int, NoRoom]) -> tuple[int, float | None]:
+def tightest(contours: Mapping[int, PlannedContour], none: Mapping[int, NoRoom]) -> tuple[int, float | None]:
     """The contour with the least room of some that the wire does not get around, and how far the wire may be beside
     it, mm; None when that is not looked for."""
     least: tuple[int, float] | None = None
@@ -27,7 +27,7 @@ def tightest(routes: Mapping[int, PlannedContour], none: Mapping[int, NoRoom]) -
             break
         if no_room.is_crossing:
             return number, 0.0
-        contour, r = routes[number].contour, routes[number].widest
+        contour, r = contours[number].contour, contours[number].widest
         if len(contour.edges) <= _MANY and (least is None or not _fits(contour, copysign(least[1], r))):
             least = number, widest(contour, r)
     return least or (next(iter(none)), None)
@@ -46,33 +46,33 @@ class Corner(NamedTuple):
 
     far: float
     place: XY
-    route: PlannedContour
+    planned: PlannedContour
 
 
-def corners(routes: Sequence[PlannedContour]) -> list[Corner]:
+def corners(contours: Sequence[PlannedContour]) -> list[Corner]:
     """The corner of each contour that has one, the worst of the sharp ones first; those that are only worked out from
     the angle stand behind `_MEASURED` worse ones."""
-    beside = [route for route in routes if route.contour.is_closed and route.offset]
-    return [*_sharp([route for route in beside if not _leaves_edges_out(route)]), *_passed(beside)]
+    beside = [planned for planned in contours if planned.contour.is_closed and planned.offset]
+    return [*_sharp([planned for planned in beside if not _leaves_edges_out(planned)]), *_passed(beside)]
 
 
-def _leaves_edges_out(route: PlannedContour) -> bool:
-    return bool(route.rung.wire and route.rung.wire.reason is Reason.EDGES)
+def _leaves_edges_out(planned: PlannedContour) -> bool:
+    return bool(planned.rung.wire and planned.rung.wire.reason is Reason.EDGES)
 
 
-def _sharp(routes: Sequence[PlannedContour]) -> list[Corner]:
+def _sharp(contours: Sequence[PlannedContour]) -> list[Corner]:
     """Corners of contours that are cut as they are."""
-    sharp = [Corner(*corner, route) for route in routes if (corner := sharpest(route.contour, route.offset))]
+    sharp = [Corner(*corner, planned) for planned in contours if (corner := sharpest(planned.contour, planned.offset))]
     sharp.sort(key=lambda corner: -corner.far)
-    for number, (_, _, route) in enumerate(sharp[:_MEASURED]):
+    for number, (_, _, planned) in enumerate(sharp[:_MEASURED]):
         with suppress(NoRoom):
-            wire = route.rung.wire
-            path = wire.paths[-1] if wire else wire_way(route.contour, route.offset)
-            sharp[number] = Corner(*uncut(route.contour, path, route.offset), route)
+            wire = planned.rung.wire
+            path = wire.paths[-1] if wire else wire_way(planned.contour, planned.offset)
+            sharp[number] = Corner(*uncut(planned.contour, path, planned.offset), planned)
     return sharp
 
 
-def _passed(routes: Sequence[PlannedContour]) -> list[Corner]:
+def _passed(contours: Sequence[PlannedContour]) -> list[Corner]:
     """Corners of contours that the wire leaves edges out of."""
-    pairs = ((route, route.rung.wire) for route in routes if _leaves_edges_out(route))
-    return [Corner(*uncut(route.contour, wire.paths[-1], route.offset), route) for route, wire in pairs if wire]
+    pairs = ((planned, planned.rung.wire) for planned in contours if _leaves_edges_out(planned))
+    return [Corner(*uncut(planned.contour, wire.paths[-1], planned.offset), planned) for planned, wire in pairs if wire]

@@ -64,7 +64,7 @@ class Run:
     """One run of the wire along a contour, or a part of it: edges that follow each other, at one offset.
 
     `offset` is R for this direction; `number`: of the pass, among the contour's `offsets`. `into`, `out`: how the wire
-    comes from its start hole and goes to one; without them a closed run begins and ends at the start hole of its route
+    comes from its start hole and goes to one; without them a closed run begins and ends at its contour's start hole
     (BACK), an open one at its own ends. `stop`: what the operator is to do before it, the machine stops for it; empty:
     nothing.
     """

@@ -34,14 +34,14 @@ class Wall(NamedTuple):
     place: XY
 
 
-def thin_walls(routes: Sequence[PlannedContour]) -> list[Wall]:
+def thin_walls(contours: Sequence[PlannedContour]) -> list[Wall]:
     """The walls that are thinner than what the cuts on their sides take, the thinnest first."""
-    closed = [route for route in routes if route.contour.is_closed and 0 < abs(route.passes[-1]) <= _WIRE]
-    closed.sort(key=lambda route: route.number)
+    closed = [planned for planned in contours if planned.contour.is_closed and 0 < abs(planned.passes[-1]) <= _WIRE]
+    closed.sort(key=lambda planned: planned.number)
     if len(closed) < 2:
         return []
-    kerfs = np.array([2 * abs(route.passes[-1]) for route in closed])
-    boxes, _ = boxes_of([route.contour for route in closed])
+    kerfs = np.array([2 * abs(planned.passes[-1]) for planned in closed])
+    boxes, _ = boxes_of([planned.contour for planned in closed])
     # (most contours of many lie far from all others)
     rows = [shapely.box(*(boxes + sign * kerfs.max() * np.array([-1, -1, 1, 1])).T) for sign in (0, 2)]
     ones, others = _pairs(closed, *shapely.STRtree(rows[0]).query(rows[1]))
@@ -71,18 +71,18 @@ class Walls:
     def __init__(self) -> None:
         self._known: tuple[list[tuple[int, float]], list[Wall]] = [], []
 
-    def of(self, routes: Sequence[PlannedContour]) -> list[Wall]:
+    def of(self, contours: Sequence[PlannedContour]) -> list[Wall]:
         """The walls; their contours are those that were planned first."""
-        key = sorted((route.number, route.passes[-1]) for route in routes)
+        key = sorted((planned.number, planned.passes[-1]) for planned in contours)
         if key != self._known[0]:
-            self._known = key, thin_walls(routes)
+            self._known = key, thin_walls(contours)
         return self._known[1]
 
 
-def findings(routes: Sequence[PlannedContour], known: Walls | None = None) -> Iterator[Finding]:
+def findings(contours: Sequence[PlannedContour], known: Walls | None = None) -> Iterator[Finding]:
     """Report the walls that are thinner than what the cuts beside them take; `known`: from plans before."""
-    walls = (known or Walls()).of(routes)
-    turns = {route.number: route.turn for route in routes} if walls else {}
+    walls = (known or Walls()).of(contours)
+    turns = {planned.number: planned.turn for planned in contours} if walls else {}
     for wall in walls[:_PLACES]:
         yield Finding(
             "thin-wall",
@@ -109,9 +109,9 @@ def _pairs(closed: Sequence[PlannedContour], ones: Whole, others: Whole) -> tupl
     return ones[is_wall], others[is_wall]
 
 
-def _ring(route: PlannedContour, off: float | None) -> list[XY]:
+def _ring(planned: PlannedContour, off: float | None) -> list[XY]:
     """A contour as chords that leave it by no more, mm; None: as they are at hand."""
-    edges = route.contour.edges
+    edges = planned.contour.edges
     if off is None:
         return [point for edge in edges for point in edge.points()[:-1]]
     return [point for edge in edges for point in _finely(edge, off)[:-1]]

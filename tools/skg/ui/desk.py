@@ -59,7 +59,7 @@ class Desk:
         self._drawn: DrawnJob | None = None
         #: The drawing as it could be read last, which the page still shows.
         self._seen: DrawnJob | None = None
-        self._routes: dict[int, PlannedContour] = {}
+        self._planned: dict[int, PlannedContour] = {}
         #: The drawing's plan before, and its form for the page.
         self._before: dict[int, tuple[Asked, PlannedContour]] = {}
         self._plans = shown.Plans()
@@ -112,9 +112,9 @@ class Desk:
             if not 0 <= number < len(drawn.contours):
                 raise UserError(Finding("page-no-contour", number=number))
         paths = {
-            str(number): shown.ways(self._routes[number], self._placement)
+            str(number): shown.ways(self._planned[number], self._placement)
             for number in numbers
-            if number in self._routes
+            if number in self._planned
         }
         return encoded(paths)
 
@@ -131,11 +131,11 @@ class Desk:
         files = {"job": self.job()}
         for cut in cuts:
             own = f"{cut.member}/" if cut is not cuts[0] else ""
-            thick, routes = self._job.machine.thickness, cut.result.routes
+            thick, contours = self._job.machine.thickness, cut.result.contours
             files |= {f"{own}tape": cut.result.data, f"{own}program": cut.result.program.encode("ascii")}
-            files[f"{own}holes"] = holes_files.table(routes)
+            files[f"{own}holes"] = holes_files.table(contours)
             if thick is not None:
-                files[f"{own}drill"] = holes_files.drilled(routes, thick, "drill")
+                files[f"{own}drill"] = holes_files.drilled(contours, thick, "drill")
         return shown.results(cuts), files
 
     def sheet(self, number: int, tape: str, form: str, language: str, member: str) -> bytes:
@@ -168,7 +168,7 @@ class Desk:
     def _read(self, job: Job, is_known: bool = True) -> dict[str, Any]:
         """Read the drawing. One that cannot be read is told of with the job that asked for it; of one that is not known
         yet, and large, the drawing is told of before its plan."""
-        self._job, self._drawn, self._routes, self._cut = job, None, {}, None
+        self._job, self._drawn, self._planned, self._cut = job, None, {}, None
         self._before, self._plans = {}, shown.Plans()
         try:
             self._drawn = open_drawing(job, self._data)
@@ -221,7 +221,7 @@ class Desk:
     def _plan(self) -> tuple[bytes, bytes]:
         """The plan: of all contours that can be planned, with what is wrong with the others; and as it has changed."""
         wanted = wanted_of(self._job, self._drawn)
-        tried, routes, errors = list(wanted), [], []
+        tried, contours, errors = list(wanted), [], []
         with _noted(errors):
             refuse_lost(self._job, self._drawn)
         job, placement, nesting = self._job, Placement(), self._drawn.nesting
@@ -232,9 +232,9 @@ class Desk:
             job, placement = replace(job, place=Place(), copies=Copies()), Placement()
         if nesting is not self._nesting:
             self._placement, self._nesting, self._before, self._plans = placement, nesting, {}, shown.Plans()
-        while not routes and len(errors) < _MOST_ERRORS:
+        while not contours and len(errors) < _MOST_ERRORS:
             with _noted(errors):
-                routes = plan_placed(job, self._drawn, tried, self._before)
+                contours = plan_placed(job, self._drawn, tried, self._before)
                 break
             number = errors[-1].contour
             if number is None:
@@ -242,9 +242,9 @@ class Desk:
             # (without the places that somebody gave, or else not at all)
             free = replace(tried[number], start=None, entry=None, order=None)
             tried[number] = free if free != tried[number] else replace(free, cut=False)
-        self._routes = {route.number: route for route in routes}
+        self._planned = {planned.number: planned for planned in contours}
         pattern = self._drawn.pattern(job)
-        return self._plans.written(routes, wanted, errors, placement, pattern)
+        return self._plans.written(contours, wanted, errors, placement, pattern)
 
 
 @contextmanager

@@ -177,7 +177,7 @@ class Plans:
 
     def written(
         self,
-        routes: Sequence[PlannedContour],
+        contours: Sequence[PlannedContour],
         wanted: Sequence[Wanted],
         errors: Sequence[UserError],
         placement: Placement,
@@ -185,43 +185,43 @@ class Plans:
     ) -> tuple[bytes, bytes]:
         """The plan of all contours, and the same with those alone that were told otherwise the last time. `placement`:
         where the drawing lies on the machine, `pattern`: its copies; all is told in its own places."""
-        turns = {route.number: (turn, route) for turn, route in enumerate(routes, 1)}
+        turns = {planned.number: (turn, planned) for turn, planned in enumerate(contours, 1)}
         why = {error.contour: told(error) for error in errors if error.contour is not None}
-        contours = []
+        plans = []
         for number, want in enumerate(wanted):
-            turn, route = turns.get(number, (None, None))
-            plan = self._contour(number, route, want, why, placement)
-            contours.append(f'"{number}":{{"number":{turn or "null"},{plan}')
-        changed = [contour for contour, before in zip_longest(contours, self._told) if contour and contour != before]
-        self._told = contours
+            turn, planned = turns.get(number, (None, None))
+            plan = self._contour(number, planned, want, why, placement)
+            plans.append(f'"{number}":{{"number":{turn or "null"},{plan}')
+        changed = [contour for contour, before in zip_longest(plans, self._told) if contour and contour != before]
+        self._told = plans
         data = {
-            "order": [route.number for route in routes],
+            "order": [planned.number for planned in contours],
             "said": [
                 line(as_drawn(entry, placement))
                 for entry in (
-                    *findings((route.turn, route.remarks.around) for route in routes),
-                    *walls.findings(routes, self._walls),
+                    *findings((planned.turn, planned.remarks.around) for planned in contours),
+                    *walls.findings(contours, self._walls),
                 )
             ],
             "error": told(errors[0]) if errors else None,
             "lying": in_json(lying(placement, pattern)),
         }
         whole, part = (
-            encoded(data | {"contours": f"{{{','.join(entries)}}}".encode()}) for entries in (contours, changed)
+            encoded(data | {"contours": f"{{{','.join(entries)}}}".encode()}) for entries in (plans, changed)
         )
         return whole, part
 
     def _contour(
-        self, number: int, route: PlannedContour | None, want: Wanted, why: dict[int, dict], placement: Placement
+        self, number: int, planned: PlannedContour | None, want: Wanted, why: dict[int, dict], placement: Placement
     ) -> str:
         """A contour's plan without its place in the order, and without the brace before it."""
         wrong = why.get(number)
         known = self._known.get(number)
-        if known is None or known[0] is not route or known[1:3] != (want, wrong):
-            plan = (planned(route, placement) if route else _LEFT) | {"error": wrong}
-            is_slug = route is not None and route.contour.is_closed and route.frees == "slug"
+        if known is None or known[0] is not planned or known[1:3] != (want, wrong):
+            plan = (plan_of(planned, placement) if planned else _LEFT) | {"error": wrong}
+            is_slug = planned is not None and planned.contour.is_closed and planned.frees == "slug"
             text = f'{in_json(plan)[1:-1].decode()},"values":{_values(want, is_slug)}}}'
-            known = self._known[number] = route, want, wrong, text
+            known = self._known[number] = planned, want, wrong, text
         return known[3]
 
 
@@ -255,49 +255,49 @@ def lying(placement: Placement, pattern: Pattern | None) -> dict[str, Any]:
     }
 
 
-def planned(route: PlannedContour, placement: Placement) -> dict[str, Any]:
+def plan_of(planned: PlannedContour, placement: Placement) -> dict[str, Any]:
     """The plan of a contour, without the wishes for it, in the places of the drawing."""
     back = placement.back
     # (R is to the right of the way, and its distance that of the drawing)
     times = (-1 if back.is_mirror else 1) * back.scale
-    edge = back.edge(route.chain[0])
+    edge = back.edge(planned.chain[0])
     tabs = [
         [place(back.place(p)) for p in (edges[0].start, edges[-1].end, tab.before, tab.behind)]
-        for (_, edges), tab in zip(route.spans, route.tabs.each, strict=True)
+        for (_, edges), tab in zip(planned.spans, planned.tabs.each, strict=True)
     ]
     return {
         "cut": True,
-        "hole": place(back.place(route.start)),
-        "entry": place(back.place(route.entry)),
+        "hole": place(back.place(planned.start)),
+        "entry": place(back.place(planned.entry)),
         "tab": tabs[-1][0] if tabs else None,
         "tabs": tabs,
         "direction": round(edge.direction(), _ANGLE),
-        "radius": round(times * route.offset, _LENGTH),
-        "passes": [round(times * r, _LENGTH) for r in route.passes],
-        "lead_arc": route.is_arc and route.is_square,
+        "radius": round(times * planned.offset, _LENGTH),
+        "passes": [round(times * r, _LENGTH) for r in planned.passes],
+        "lead_arc": planned.is_arc and planned.is_square,
     }
 
 
-def ways(route: PlannedContour, placement: Placement) -> list[list[list[Any]]]:
+def ways(planned: PlannedContour, placement: Placement) -> list[list[list[Any]]]:
     """The ways of the wire's middle along a contour, with those from its start holes and to them, in the places of the
     drawing; none where the wire does not get around it."""
-    if route.contour.is_closed and any(route.passes) and not route.rung.wire:
+    if planned.contour.is_closed and any(planned.passes) and not planned.rung.wire:
         with suppress(NoRoom):
-            return ways(route.along_wire(), placement)
+            return ways(planned.along_wire(), placement)
         return []
-    return [edges(map(placement.back.edge, _wire(run, route))) for run in route.runs()]
+    return [edges(map(placement.back.edge, _wire(run, planned))) for run in planned.runs()]
 
 
-def _wire(run: Run, route: PlannedContour) -> Iterator[Edge]:
+def _wire(run: Run, planned: PlannedContour) -> Iterator[Edge]:
     """The wire's middle along a way."""
     along = run.edges if not run.offset else _beside(run)
-    if not route.contour.is_closed:
+    if not planned.contour.is_closed:
         yield from along
         return
     first, last = along[0].start, along[-1].end
-    yield from _lead(run.into, route.start, first, True)
+    yield from _lead(run.into, planned.start, first, True)
     yield from along
-    yield from _lead(run.out, route.start, last, False)
+    yield from _lead(run.out, planned.start, last, False)
 
 
 def _lead(lead: Lead | None, hole: XY, entry: XY, is_in: bool) -> Iterator[Edge]:
@@ -337,6 +337,6 @@ def result(cut: CutDrawing) -> dict[str, Any]:
     return {
         "lines": [line(entry, cut.member) for entry in cut.findings],
         "figures": said(figures(made, cut.cost)),
-        "start": place(made.routes[0].start),
+        "start": place(made.contours[0].start),
         "back": [*back.matrix, *back.origin, *back.at],
     }
