@@ -261,9 +261,8 @@ def silent_entries(rooms: dict[str, Room]) -> list[str]:
 
 def every() -> dict[str, dict[str, Room]]:
     """The rooms of each image, by its name."""
-    from images import IMAGES
-
     from build import sources
+    from images import IMAGES
 
     return {name: read(sources(image)) for name, image in IMAGES.items()}
 

@@ -1,4 +1,4 @@
-/* The board for tests: the functions of build/libskg80.so that skg.machine (Python, ctypes) calls
+/* The board for tests: the functions of build/libskg80.so that skg.board (Python, ctypes) calls
  *
  * A board that keeps its paper, its punch tape and its drive's steps in memory, and on which single subroutines of the ROM can be called,
  * one at a time or a million in a row. Functions give counts and reasons; all memory is the machine's own.

@@ -21,12 +21,11 @@ from functools import cache
 from io import BytesIO
 from pathlib import Path
 
+import build
 import maven
 import trial
 from elftools.elf.elffile import ELFFile
 from macholib.MachO import MachO
-
-import build
 
 ROOT = Path(__file__).resolve().parents[1]
 DIST, BUILD = ROOT / "dist", ROOT / "build" / "release"

@@ -115,7 +115,7 @@ class BuildPackage(build_py):
         compile_into(package / "native")
         for messages in sorted((HERE / "skg" / "messages").glob("*.po")):
             pofile(str(messages)).save_as_mofile(str(package / "messages" / f"{messages.stem}.mo"))
-        roms = package / "machine" / "roms"
+        roms = package / "board" / "roms"
         roms.mkdir(parents=True, exist_ok=True)
         for image in sorted((ABOVE / "roms").glob("*.bin")):
             shutil.copy(image, roms)

@@ -14,7 +14,7 @@ from xml.sax.saxutils import escape
 import pytest
 
 from skg import Board
-from skg.machine.emulator import symbols
+from skg.board.emulator import symbols
 from skg.ref.interpreter import run
 from skg.ref.route import Segment
 

@@ -21,8 +21,8 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
+from skg.board import symbols
 from skg.cli import cli
-from skg.machine import symbols
 from skg.ref import Result, run
 from skg.ref.operations import OPERATIONS
 from skg.ref.values import C, D, P, S, T

@@ -11,7 +11,7 @@ import re
 from collections import defaultdict
 from pathlib import Path
 
-from skg.machine import symbols
+from skg.board import symbols
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs" / "board.md"

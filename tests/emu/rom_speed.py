@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from time import process_time
 
-from skg.machine import Machine
-from skg.machine.feeding import TAPE_END
+from skg.board import Machine
+from skg.board.feeding import TAPE_END
 
 ROOT = Path(__file__).resolve().parents[2]
 PART = ROOT / "examples" / "fit-gear.skg"

@@ -7,7 +7,7 @@ from asm8080 import assemble
 from emuhelp import ROMS
 
 import skg
-from skg.machine import Machine
+from skg.board import Machine
 
 CTRL_C, CTRL_Q, CTRL_S = 3, 0x11, 0x13
 

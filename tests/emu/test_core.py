@@ -10,7 +10,7 @@ import pytest
 from asm8080 import assemble
 from facthelp import pattern
 
-from skg.machine import Machine, symbols
+from skg.board import Machine, symbols
 
 ROOT = Path(__file__).resolve().parents[2]
 

@@ -14,7 +14,7 @@ from asm8080 import assemble
 from emuhelp import ROM_SIZE, Skg80, complaint
 from facthelp import says
 
-from skg.machine import Machine
+from skg.board import Machine
 from skg.tape.controller import drive_steps
 from skg.tape.text import parse
 

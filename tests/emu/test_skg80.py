@@ -20,9 +20,9 @@ from asm8080 import assemble
 from emuhelp import ROM_SIZE, ROMS, ROOT, SKG80, Skg80, complaint, without_sign_on
 from facthelp import says
 
+from skg.board import Machine, symbols
+from skg.board.emulator import read_rom
 from skg.errors import UserError
-from skg.machine import Machine, symbols
-from skg.machine.emulator import read_rom
 from skg.messages.render import Speech, line
 
 Part = Callable[[str], Path]

@@ -13,7 +13,7 @@ import numpy as np
 from floathelp import Floats, Printer, from_rows, nearest
 from measured import Measured, judge
 
-from skg.machine import Batch
+from skg.board import Batch
 
 N = 2000
 #: Labels of float.asm and decimal.asm: what a part is, the limit for its mean, the known figure; "" ends a file's.

@@ -19,7 +19,7 @@ from random import Random
 import numpy as np
 from floathelp import ROM, value
 
-from skg.machine import Machine, symbols
+from skg.board import Machine, symbols
 from skg.ref import real
 from skg.ref.interpreter import Interpreter
 from skg.ref.near import Watch

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from skg.machine import ENDS, Batch, Machine, symbols
+from skg.board import ENDS, Batch, Machine, symbols
 
 ROOT = Path(__file__).resolve().parents[2]
 ROM = Path(os.environ.get("SKG_ROM", ROOT / "roms" / "skg.bin"))

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from floathelp import ERANGE, ERROR, ESYN, OVERFLOW, STACK, Printer, X, nearest, operands, value
 
-from skg.machine import Batch
+from skg.board import Batch
 
 Report = Callable[[str, object], None]
 #: Powers of ten up to this are exact in a float: so far each conversion rounds once.

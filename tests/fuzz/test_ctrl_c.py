@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 import pytest
 
-from skg.machine import Board
-from skg.machine.emulator import Machine
+from skg.board import Board
+from skg.board.emulator import Machine
 
 ROOT = Path(__file__).resolve().parents[2]
 ROM = Path(os.environ.get("SKG_ROM", ROOT / "roms" / "skg.bin"))

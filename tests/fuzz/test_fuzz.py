@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from skg.machine import symbols
+from skg.board import symbols
 
 ROOT = Path(__file__).resolve().parents[2]
 ROM = Path(os.environ.get("SKG_ROM", ROOT / "roms" / "skg.bin"))

@@ -27,7 +27,7 @@ from millparts import mill_session  # noqa: E402
 from playedhelp import IMAGE, OK, Waiting  # noqa: E402
 from romhelp import Board, fault  # noqa: E402
 
-from skg.machine import BoardStopped  # noqa: E402
+from skg.board import BoardStopped  # noqa: E402
 from skg.ref import Result, mill  # noqa: E402
 from skg.ref.interpreter import Endless  # noqa: E402
 

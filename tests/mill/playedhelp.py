@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 from romhelp import Board
 
-from skg.machine import BoardStopped
+from skg.board import BoardStopped
 
 IMAGE = "skg-grbl"
 OK = b"ok\r\n"

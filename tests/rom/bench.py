@@ -11,7 +11,7 @@ import bench_fit
 from measured import Measured, judge
 from romhelp import EXAMPLES, Board, fault
 
-from skg.machine.feeding import TAPE_END
+from skg.board.feeding import TAPE_END
 
 COMPUTED = {"set-cam", "set-gear"}
 #: Cycles, at most: of a block and of a line of LOAD, in the mean of the parts.

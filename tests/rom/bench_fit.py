@@ -17,7 +17,7 @@ from pathlib import Path
 from measured import Measured, judge
 from romhelp import EXAMPLES, ROM, RUN_LIMIT, Board, fault
 
-from skg.machine import symbols
+from skg.board import symbols
 
 LIMIT = 900_000
 FIT_EXAMPLES = [path for path in EXAMPLES if path.stem.startswith("fit-")]

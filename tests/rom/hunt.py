@@ -22,7 +22,7 @@ from romhelp import Board, Outcome
 from soup import TOKEN, Bowl, soup
 from tqdm import tqdm
 
-from skg.machine import BoardStopped
+from skg.board import BoardStopped
 from skg.ref import run as reference
 from skg.ref.interpreter import Endless
 

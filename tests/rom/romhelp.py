@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any
 
 import skg
-from skg.machine import ErrorLine, symbols
-from skg.machine.board import find_error as fault
+from skg.board import ErrorLine, symbols
+from skg.board.board import find_error as fault
 
 ROOT = Path(__file__).resolve().parents[2]
 ROM = Path(os.environ.get("SKG_ROM", ROOT / "roms" / "skg.bin"))

@@ -13,7 +13,7 @@ from romhelp import BLOCK, BOARDS, ROOT, RUN_LIMIT, SOME_EXAMPLES, Board, image,
 from test_build import builder
 from test_examples import EXAMPLES, stem
 
-from skg.machine.emulator import Machine
+from skg.board.emulator import Machine
 
 sys.path.insert(0, str(ROOT / "asm"))
 import build

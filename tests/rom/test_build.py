@@ -21,7 +21,7 @@ import pytest
 from facthelp import pattern, says
 from romhelp import ROOT
 
-from skg.machine import symbols
+from skg.board import symbols
 
 sys.path.insert(0, str(ROOT / "asm"))
 import rooms  # noqa: E402

@@ -8,7 +8,7 @@ import pytest
 from facthelp import each_says
 from romhelp import ROM, ROOT
 
-from skg.machine import symbols
+from skg.board import symbols
 
 sys.path.insert(0, str(ROOT / "asm"))
 import facts

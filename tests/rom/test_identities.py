@@ -9,7 +9,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from romhelp import ROM, Board, fault
 
-from skg.machine import symbols
+from skg.board import symbols
 
 #: 7 digits, or as much of the drawing's size.
 CLOSE = 1e-6

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from romhelp import BOARDS, ROM, RUN_LIMIT, Board, fault, labels, saved_tape
 
-from skg.machine import Machine
+from skg.board import Machine
 
 CTRL_C, BS, CTRL_Q, CTRL_S, CTRL_U, CTRL_Z, RUBOUT = 3, 8, 17, 19, 21, 26, 127
 #: Cycles in which nothing more happens on a board that waits or is held.

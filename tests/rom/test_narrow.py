@@ -18,7 +18,7 @@ from compare import compare
 from narrow import Part, judged, parts
 from romhelp import ROM, Board, Outcome
 
-from skg.machine import symbols
+from skg.board import symbols
 from skg.ref import run as reference
 
 SEED = os.environ.get("SKG_SEED", "narrow")

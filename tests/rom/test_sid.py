@@ -11,7 +11,7 @@ import pytest
 from romhelp import ROOT
 from test_build import labels
 
-from skg.machine.emulator import Machine
+from skg.board.emulator import Machine
 
 CLOCK, BAUD = 3_072_000, 2400
 BIT = CLOCK / BAUD

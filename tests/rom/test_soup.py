@@ -14,7 +14,7 @@ from hunt import RAM_KIB, Catch, catch, judge
 from romhelp import ROM, Board, Outcome
 from soup import Bowl, soup
 
-from skg.machine import symbols
+from skg.board import symbols
 from skg.ref import run as reference
 from skg.ref.interpreter import Endless
 

@@ -26,12 +26,12 @@ from shapely.geometry import LineString, Point, Polygon
 from toolhelp import Run, in_time
 
 from skg import tape as tapes
+from skg.board import feeding
+from skg.board.feeding import feed, feed_routes, rest_of, without_numbers
 from skg.errors import UserError
 from skg.geometry.plane import XY
 from skg.job.job import MachineSetup
 from skg.job.wanted import Wanted
-from skg.machine import feeding
-from skg.machine.feeding import feed, feed_routes, rest_of, without_numbers
 from skg.messages.finding import Phrase
 
 #: A drawing.

@@ -11,7 +11,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from skg.machine import keyboard
+from skg.board import keyboard
 
 
 def test_console(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -96,7 +96,7 @@ def test_wheel_is_complete(wheel: Path) -> None:
     """Every module and image of the tree, the libraries, grammars, messages, machines, the page, and no leftovers."""
     names = set(zipfile.ZipFile(wheel).namelist())
     modules = {str(path.relative_to(ROOT / "tools")) for path in (ROOT / "tools" / "skg").rglob("*.py")}
-    images = {f"skg/machine/roms/{path.name}" for path in (ROOT / "roms").glob("*.bin")}
+    images = {f"skg/board/roms/{path.name}" for path in (ROOT / "roms").glob("*.bin")}
     grammars = {str(path.relative_to(ROOT / "tools")) for path in (ROOT / "tools" / "skg").rglob("*.lark")}
     rest = {"skg/native/libskgsim.so", "skg/native/libskg80.so", "skg/LICENSE"} | grammars
     rest |= {str(path.relative_to(ROOT / "tools")) for path in (ROOT / "tools" / "skg" / "dialects").glob("*.toml")}

@@ -10,7 +10,7 @@ from facthelp import each_says, says
 from toolhelp import ROOT, Run
 
 from skg import tape as tapes
-from skg.machine.feeding import feed
+from skg.board.feeding import feed
 from skg.messages.finding import Phrase
 from skg.messages.severity import Severity
 from skg.ref import run as reference

@@ -19,7 +19,7 @@ import pytest
 from facthelp import says
 from toolhelp import CAD_TAPE, PATIENCE
 
-from skg.machine.recorder import Listing, wrong_with
+from skg.board.recorder import Listing, wrong_with
 
 ROOT = Path(__file__).parents[2]
 SKG = Path(sys.executable).with_name("skg")

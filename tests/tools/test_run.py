@@ -280,7 +280,7 @@ def test_one_name_of_a_rom(spelling: str) -> None:
 @pytest.mark.wording
 def test_meaning_of_errors() -> None:
     """The tools' meaning of an error is the beginning of its row in the table of language.md, section 6."""
-    from skg.machine.board import ERRORS, meaning
+    from skg.board.board import ERRORS, meaning
 
     table = (ROOT / "docs" / "spec" / "language.md").read_text().partition("## 6. Errors")[2]
     rows = dict(re.findall(r"^\| (\d\d) \| (.*) \|$", table, re.M))
@@ -292,8 +292,8 @@ def test_meaning_of_errors() -> None:
 @pytest.mark.wording
 def test_one_wording_of_error_7() -> None:
     """The manual, the page and `skg cut` say it as the specification does: of any arc, and of a cutter too."""
+    from skg.board.board import meaning
     from skg.cutting import refusal
-    from skg.machine.board import meaning
 
     sentence = str(meaning(7))
     assert sentence in str(refusal.meaning(7))
@@ -319,7 +319,7 @@ MIXED = {
 @pytest.mark.parametrize("program", MIXED)
 def test_a_route_that_is_given_up_is_said(program: str) -> None:
     """The report is true: the board's tape does, or does not, come to the last point."""
-    from skg.machine.feeding import feed, given_up
+    from skg.board.feeding import feed, given_up
 
     fed = feed(program)
     assert fed.error is None

@@ -13,11 +13,11 @@ from oneblock import run_block
 from toolhelp import Run
 
 from skg import tape as tapes
+from skg.board.board import ErrorLine
+from skg.board.feeding import MEMORY_FULL, Fed, feed
 from skg.cutting import ladder
 from skg.errors import UserError
 from skg.geometry.plane import XY
-from skg.machine.board import ErrorLine
-from skg.machine.feeding import MEMORY_FULL, Fed, feed
 from skg.messages.finding import Phrase
 from skg.ref import run as reference
 from skg.tape.block import Block

@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 from facthelp import pattern
 
+from skg.board.board import Board
 from skg.errors import UserError
 from skg.files import board_text
-from skg.machine.board import Board
 from skg.messages.finding import Finding, Phrase
 from skg.signs import Keys, with_signs
 

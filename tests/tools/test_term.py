@@ -19,7 +19,7 @@ import pytest
 from facthelp import each_says, says
 from toolhelp import CAD_TAPE, PATIENCE
 
-from skg.machine.teletype import DC2, DC4, XOFF, XON, Splitter
+from skg.board.teletype import DC2, DC4, XOFF, XON, Splitter
 from skg.messages.finding import Phrase
 
 SKG = Path(sys.executable).with_name("skg")

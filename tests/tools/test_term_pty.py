@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from facthelp import CARE, says
 
-from skg.machine.feeding import feed
+from skg.board.feeding import feed
 from skg.messages.finding import Finding, Phrase
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -28,13 +28,13 @@ ALLOWED = {
     "geometry": {COMMON},
     "job": {COMMON, "geometry", "tape"},
     "tape": {COMMON, "native", "geometry"},
-    "machine": {COMMON, "native", "tape"},
+    "board": {COMMON, "native", "tape"},
     "reading": {COMMON, "geometry", "job"},
     "planning": {COMMON, "geometry", "job"},
     "checking": {COMMON, "geometry", "job", "tape", "planning", "ref"},
-    "cutting": {COMMON, "geometry", "job", "tape", "planning", "checking", "machine"},
+    "cutting": {COMMON, "geometry", "job", "tape", "planning", "checking", "board"},
     "pipeline": {COMMON, "geometry", "job", "reading", "planning", "checking", "cutting"},
-    "sources": {COMMON, "geometry", "tape", "machine", "ref", "rivals"},
+    "sources": {COMMON, "geometry", "tape", "board", "ref", "rivals"},
     "pictures": {COMMON, "geometry", "job", "tape", "planning", "checking", "cutting"},
 }
 ALLOWED["dialects"] = {COMMON, "geometry", "job", "planning", "tape"}

@@ -13,10 +13,10 @@ from cuthelp import drawing, polygon, saved, stretches
 from facthelp import says
 from toolhelp import ROOT, Run
 
+from skg.board import symbols
+from skg.board.feeding import feed
 from skg.errors import UserError
 from skg.geometry.plane import XY
-from skg.machine import symbols
-from skg.machine.feeding import feed
 from skg.messages.finding import Phrase
 from skg.sources import load
 

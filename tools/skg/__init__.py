@@ -13,7 +13,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from skg.machine.board import Board, BoardStopped, ErrorLine
+    from skg.board.board import Board, BoardStopped, ErrorLine
 
 __all__ = ["Board", "BoardStopped", "ErrorLine"]
 
@@ -21,7 +21,7 @@ __all__ = ["Board", "BoardStopped", "ErrorLine"]
 def __getattr__(name: str) -> object:
     """The public names, imported when they are asked for: `skg --help` needs no board."""
     if name in __all__:
-        from skg.machine import board
+        from skg.board import board
 
         return getattr(board, name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

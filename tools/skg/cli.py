@@ -100,7 +100,7 @@ def _print_version(ctx: click.Context, _option: click.Parameter, is_asked: bool)
     from importlib.metadata import version
     from zlib import crc32
 
-    from skg.machine.roms import rom_path
+    from skg.board.roms import rom_path
 
     rom = rom_path("standard")
     click.echo(f"skg {version('skg-nc')}, ROM {rom.name}, CRC-32 {crc32(rom.read_bytes()):08X}")

@@ -109,7 +109,7 @@ test("a browser that refuses to keep anything is told of once; what it refused i
   assert.deepEqual(store.settings, { speed: "real" });
   assert.ok(store.isRefused);
   assert.equal(refusals, 1);
-  const kept = new Map<string, string>([["skg.machine", '{"ram":5}']]);
+  const kept = new Map<string, string>([["skg.board", '{"ram":5}']]);
   Object.defineProperty(globalThis, "localStorage", {
     value: { getItem: (key: string) => kept.get(key) ?? null, setItem: (key: string, value: string) => kept.set(key, value) },
   });

@@ -85,8 +85,8 @@ def _misfits(name: str, tape: bytes) -> tuple[list[Spoilt | RefusedProgram], int
     `tape`: what it punches.
     """
     # (slow to import, and not needed for tapes)
+    from skg.board.feeding import as_run
     from skg.checking.wire_fit import RefusedProgram, look
-    from skg.machine.feeding import as_run
     from skg.ref.drawn import routes_of
     from skg.sources.load import start_of
 

@@ -195,7 +195,7 @@ class RomName(click.Choice):
 
     def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> str:
         """Return the name as `ROMS` has it."""
-        from skg.machine.roms import known_rom
+        from skg.board.roms import known_rom
 
         return super().convert(known_rom(str(value)) or value, param, ctx)
 

@@ -32,7 +32,7 @@ def command(part: str, output: str, answers: str | None, drift: bool, mill: bool
     The teletype's paper goes to standard error. Exit code 1 when the run
     ended in ERR, 2 for wrong usage.
     """
-    from skg.machine.feeding import as_run, given_up
+    from skg.board.feeding import as_run, given_up
     from skg.ref import mill as milling
     from skg.ref import run
     from skg.sources.load import program_text

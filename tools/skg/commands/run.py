@@ -8,12 +8,12 @@ from contextlib import suppress
 
 import click
 
+from skg.board.board import Board, BoardStopped, meaning
+from skg.board.feeding import MEMORY_FULL, given_up, rest_of, too_large
+from skg.board.roms import ROMS, known_rom
 from skg.commands.options import answers_option, output_option, unmarked, write_tape
 from skg.errors import UserError
 from skg.files import board_text, read_bytes
-from skg.machine.board import Board, BoardStopped, meaning
-from skg.machine.feeding import MEMORY_FULL, given_up, rest_of, too_large
-from skg.machine.roms import ROMS, known_rom
 from skg.messages.finding import Finding
 from skg.sources.load import program_text
 from skg.sources.milling import MILL_ROM, is_milling

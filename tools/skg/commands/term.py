@@ -17,7 +17,7 @@ from skg.messages.finding import Finding, Phrase
 from skg.terminal import remark
 
 if TYPE_CHECKING:
-    from skg.machine.teletype import Port, Teletype
+    from skg.board.teletype import Port, Teletype
 
 #: Seconds that a port may stay away when nobody is at the keyboard.
 UNATTENDED_PATIENCE = 60.0
@@ -102,11 +102,11 @@ def command(
 
     The first ERR ends sending: then the keyboard is yours, or the exit code is 1.
     """
-    from skg.machine.keyboard import raw_keyboard
-    from skg.machine.recorder import Recorder
-    from skg.machine.sending import Stopped, TypedLine, Typist, finish, lines_to_type, make_tape, send
-    from skg.machine.signals import closing_on_signals
-    from skg.machine.teletype import BrokenOff, Port, Teletype, converse
+    from skg.board.keyboard import raw_keyboard
+    from skg.board.recorder import Recorder
+    from skg.board.sending import Stopped, TypedLine, Typist, finish, lines_to_type, make_tape, send
+    from skg.board.signals import closing_on_signals
+    from skg.board.teletype import BrokenOff, Port, Teletype, converse
 
     if unnumbered and not (file and run):
         raise UserError(Finding("unnumbered-alone"))

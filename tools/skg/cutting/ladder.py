@@ -9,6 +9,8 @@ from dataclasses import dataclass, replace
 from itertools import tee
 from math import inf
 
+from skg.board.board import ErrorLine
+from skg.board.feeding import MEMORY_FULL, Fed, feed, feed_lines, feed_routes, refused_routes
 from skg.checking.check import Checked, check
 from skg.checking.wire_path import Misfit
 from skg.cutting import refusal
@@ -17,8 +19,6 @@ from skg.cutting.progress import Progress, in_silence
 from skg.errors import UserError
 from skg.geometry.offset import NoRoom
 from skg.job.job import MachineSetup
-from skg.machine.board import ErrorLine
-from skg.machine.feeding import MEMORY_FULL, Fed, feed, feed_lines, feed_routes, refused_routes
 from skg.messages.finding import Finding, Phrase
 from skg.planning.copies import Pattern
 from skg.planning.islands import islands

@@ -12,14 +12,14 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from skg.board.board import BoardStopped, ErrorLine, find_error, meaning
+from skg.board.feeding import MEMORY_FULL, MOST_CYCLES, MOST_RAM, as_run, feed, given_up, least_ram, too_large
+from skg.board.roms import rom_path
 from skg.errors import UserError
 from skg.file_type import GCODE, PROGRAM, refuse_others
 from skg.files import board_text, in_ascii, read_bytes, without_filling, without_mark
 from skg.geometry.piece import Piece
 from skg.geometry.plane import XY
-from skg.machine.board import BoardStopped, ErrorLine, find_error, meaning
-from skg.machine.feeding import MEMORY_FULL, MOST_CYCLES, MOST_RAM, as_run, feed, given_up, least_ram, too_large
-from skg.machine.roms import rom_path
 from skg.messages.finding import Finding, Phrase
 from skg.rivals.languages import is_program, is_rival, translated
 from skg.sources.milling import MILL_ROM, is_milling

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-#: The key of `skg.machine.roms.ROMS` that milling programs are run on.
+#: The key of `skg.board.roms.ROMS` that milling programs are run on.
 MILL_ROM = "mill"
 #: A line that begins as a statement of milling does; FROM, FIT, FREE, GOTO and GOSUB are the wire's, too.
 _ADDED = re.compile(r"\d*(?:F(?!ROM|IT|REE)|G(?!OTO|OSUB)|Z|M|HOLE)")

@@ -1,7 +1,7 @@
 """Programs through a real board: typed at its teletype line by line, with an eye on the paper.
 
 A line is ended when its echo is what was typed, and the next one begins when the board is back at its prompt; the
-first ERR ends it all. What `skg.machine.feeding` does with the board in this process is done here with the one at the
+first ERR ends it all. What `skg.board.feeding` does with the board in this process is done here with the one at the
 other end of a line.
 """
 
@@ -16,11 +16,11 @@ from typing import NamedTuple
 
 from tqdm import tqdm
 
+from skg.board.board import ErrorLine, is_printed, meaning
+from skg.board.feeding import MEMORY_FULL, given_up, is_end, is_numbered, least_ram, without_numbers
+from skg.board.teletype import Port, Teletype
 from skg.errors import UserError
 from skg.files import board_text
-from skg.machine.board import ErrorLine, is_printed, meaning
-from skg.machine.feeding import MEMORY_FULL, given_up, is_end, is_numbered, least_ram, without_numbers
-from skg.machine.teletype import Port, Teletype
 from skg.messages.finding import Finding, Phrase
 
 #: Characters that the board takes in a line (language.md, section 3).

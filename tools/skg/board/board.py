@@ -6,9 +6,9 @@ import re
 from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
+from skg.board.emulator import Machine
+from skg.board.roms import find_rom
 from skg.errors import UserError
-from skg.machine.emulator import Machine
-from skg.machine.roms import find_rom
 from skg.messages.finding import Finding, Phrase
 from skg.signs import shown, strange, with_signs
 
@@ -59,7 +59,7 @@ class Board:
 
     `rom`: "standard", "no-drift", "mill", "drive", "8251", "tty", "rc2014", "rc2014-sio", "minimax8085", "rcbus8085",
     the path of an image (.bin or .hex), or its bytes.
-    `ram_kib`: 2 to 56. `board` one of `skg.machine.emulator.BOARDS`, `ports` (the lower one of the teletype's and
+    `ram_kib`: 2 to 56. `board` one of `skg.board.emulator.BOARDS`, `ports` (the lower one of the teletype's and
     of the punch's) and `punch_tty` (a teletype alone, its own punch and reader) tell what an image of one's own is made
     for. `max_cycles`: how long one line or one program may take, in cycles of the 2 MHz board (None: for ever).
     `on_paper` is called with all that is printed, as it is printed.

@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import tee
 
+from skg.board.board import Board, BoardStopped, ErrorLine, find_error
 from skg.errors import UserError
-from skg.machine.board import Board, BoardStopped, ErrorLine, find_error
 from skg.messages.finding import Finding, Phrase
 
 #: Cycles after which a program hangs: 140 hours of the 2 MHz board.

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from skg.machine.emulator import read_rom
+from skg.board.emulator import read_rom
 from skg.native import CHECKOUT
 
 

@@ -1,7 +1,7 @@
 """A teletype in the terminal, for the board or the emulator's `--pty`.
 
 Three things happen at once: the keyboard goes to the port, the port's paper to the screen and its punch to a
-file, and a program that is being sent goes out line by line (`skg.machine.sending`). One thread reads the port (and
+file, and a program that is being sent goes out line by line (`skg.board.sending`). One thread reads the port (and
 one a second port, for the punch); the main thread does everything else. XON and XOFF are taken from the stream of the
 port itself and obeyed here, whatever the driver underneath does about them.
 """
@@ -20,10 +20,10 @@ from dataclasses import dataclass, field
 import serial
 from tqdm import tqdm
 
+from skg.board.board import ErrorLine, find_error
+from skg.board.keyboard import ESCAPE, TERMINAL_TROUBLE
+from skg.board.recorder import Listing, Recorder
 from skg.errors import UserError, of_system
-from skg.machine.board import ErrorLine, find_error
-from skg.machine.keyboard import ESCAPE, TERMINAL_TROUBLE
-from skg.machine.recorder import Listing, Recorder
 from skg.messages.finding import Finding, Phrase
 from skg.messages.render import line as line_of
 from skg.signs import Keys
