@@ -10,7 +10,8 @@ from ezdxf import units
 
 from skg.errors import UserError
 from skg.job import file as job_files
-from skg.job.job import Job, MachineSetup
+from skg.job.job import Job
+from skg.job.machine import Setup
 from skg.job.read_options import Wishes
 from skg.pipeline.steps import cut_drawing, open_drawing
 
@@ -33,7 +34,7 @@ def drawing(folder: Path, by: float = 0.0, *circles: tuple[float, float, float])
 
 
 def job(**read: object) -> Job:
-    return Job("part.dxf", read=Wishes(**{"open": None, **read}), machine=MachineSetup(wire=0.2))
+    return Job("part.dxf", read=Wishes(**{"open": None, **read}), setup=Setup(wire=0.2))
 
 
 def test_a_bridge_closes_an_outline_and_is_kept(tmp_path: Path) -> None:

@@ -11,7 +11,8 @@ from cuthelp import drawing, polygon, saved
 from toolhelp import Run
 
 from skg.cutting.cost import Cost
-from skg.job.job import MachineSetup, Price
+from skg.job.job import Price
+from skg.job.machine import Setup
 
 
 def part(folder: Path, hole: bool = False) -> Path:
@@ -93,7 +94,7 @@ def test_money_is_rounded_once_and_adds_up() -> None:
     # (two contours that are cut from one hole: it is drilled once)
     contours = [SimpleNamespace(passes=(0.0,), holes=[(max(0, at), 0)]) for at in range(-1, 5)]
     result = SimpleNamespace(
-        machine=MachineSetup(thickness=1.0), contours=contours, checked=SimpleNamespace(lengths=(100.4, 35.0))
+        setup=Setup(thickness=1.0), contours=contours, checked=SimpleNamespace(lengths=(100.4, 35.0))
     )
     cost = Cost.of(result, Price(per_area=(0.01005, 0.0), per_hole=0.201, per_pass=0.001))
     assert cost.areas == (100, 35) and list(map(str, cost.parts)) == ["1.01", "1.01", "0.01"] and cost.price == "2.03"

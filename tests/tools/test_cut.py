@@ -30,7 +30,7 @@ from skg.board import feeding
 from skg.board.feeding import feed, feed_routes, rest_of, without_numbers
 from skg.errors import UserError
 from skg.geometry.plane import XY
-from skg.job.job import MachineSetup
+from skg.job.machine import BoardOptions, Policy, Setup
 from skg.job.wanted import Wanted
 from skg.messages.finding import Phrase
 
@@ -290,7 +290,7 @@ def test_wrong_tapes_are_found() -> None:
     edges = tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True))
     round_hole = Contour((Edge((13.0, 5.0), (13.0, 5.0), (10.0, 5.0), 2 * pi),), True)
     contours = plan([Contour(edges, True), round_hole], [], Wanted(offset=0.1))
-    job = make(contours, "part", MachineSetup())
+    job = make(contours, "part")
     assert not job.checked.faults and job.checked.off < LIMIT
     wider = plan([Contour(edges, True), round_hole], [], Wanted(offset=0.105))
     assert {fault.contour for fault in check(job.tape, wider, True).faults} == {0, 1}
@@ -311,7 +311,7 @@ def test_wrong_tapes_are_found() -> None:
             Phrase("not-closed", dx=0, dy=1), Phrase("contour-name", turn=2), Phrase("kind-outline", count=1)
         ),
     ):
-        refuse(checked, contours, MachineSetup())
+        refuse(checked, contours, BoardOptions(), Policy())
 
 
 def test_what_adds_up_on_a_standard_tape_is_said(run: Run, tmp_path: Path) -> None:
@@ -343,7 +343,7 @@ def test_the_controllers_steps_count() -> None:
     for height, is_far in ((0.0, False), (3.7, True)):
         corners = [(0.0, 0.0), (20.0, height), (20.0, 10.0), (0.0, 10.0)]
         contour = Contour(tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)), True)
-        job = make(plan([contour], [(5.0, -3.0)], Wanted(offset=0.1)), "part", MachineSetup())
+        job = make(plan([contour], [(5.0, -3.0)], Wanted(offset=0.1)), "part")
         found = check(job.tape, plan([contour], [(5.0, -3.0)], Wanted(offset=0.102)), True)
         assert bool(found.faults) == is_far and (found.off > LIMIT) == is_far
         if is_far:
@@ -374,7 +374,7 @@ def test_each_pass_keeps_its_own_distance(corner: bytes, cut_short: bytes) -> No
     corners = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)]
     square = Contour(tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)), True)
     contours = plan([square], [(5.0, -3.0)], Wanted(offset=0.1, passes=(0.5, 0.3, 0.0)))
-    job = make(contours, "part", MachineSetup())
+    job = make(contours, "part")
     assert not job.checked.faults and len(job.checked.cuts) == 2
     corner, cut_short = (blocks.replace(b" ", b"\r\n") for blocks in (corner, cut_short))
     assert job.data.count(corner) == 1
@@ -391,7 +391,7 @@ def test_a_circle_too_many_is_found() -> None:
 
     half = Contour((Edge((-5.0, 0.0), (5.0, 0.0)), Edge((5.0, 0.0), (-5.0, 0.0), (0.0, 0.0), pi)), True)
     contours = plan([half], [], Wanted(offset=0.1))
-    job = make(contours, "part", MachineSetup())
+    job = make(contours, "part")
     assert not job.checked.faults
     (arc,) = re.findall(rb"B\d+B\d+B\d+G[XY]NR4\r\n", job.data)
     around = job.data.replace(arc, b"B5099B100B20400GYNR4\r\n" + arc)
@@ -799,7 +799,7 @@ def test_a_small_round_opening_that_another_crosses(turn: float, offset: float) 
     contours = plan([circle(0, 0, 10), circle(0, 0, 0.5), circle(0.5, 0, 0.2)], [], Wanted(offset=offset))
     (opening,) = (planned for planned in contours if planned.number == 1)
     assert opening.start != (0.0, 0.0)
-    assert not make(contours, "part", MachineSetup()).checked.faults
+    assert not make(contours, "part").checked.faults
 
 
 def test_any_size_in_8_kib(run: Run, tmp_path: Path) -> None:
@@ -944,7 +944,7 @@ def test_contours_with_passes_of_their_own(one: tuple[float, ...], other: tuple[
 
     wanted = [Wanted(offset=0.1, passes=one, tab=tab), Wanted(offset=0.1, passes=other)]
     contours = plan([square(0, 20), square(40, 10)], [], wanted)
-    made = make(contours, "squares", MachineSetup())
+    made = make(contours, "squares")
     assert not made.checked.faults and made.checked.off < LIMIT
     for at in (0, 1):
         # (a stop fewer or more would be found before: here a pass is wanted elsewhere)
@@ -972,7 +972,7 @@ def test_the_middles_of_straight_pieces_hide_nothing(monkeypatch: pytest.MonkeyP
 
     outline = closed((0.0, 0.0), (40.0, 0.0), (40.0, 10.0), (20.0, 10.4), (0.0, 10.0))
     contours = plan([outline, hole(20.0, 5.0)], [], Wanted(offset=0.1))
-    made = make(contours, "part", MachineSetup())
+    made = make(contours, "part")
     bottom = re.search(rb"B(\d+)B0+B\1GXL1", made.data) or re.search(rb"B(\d+)B0+B\1GXL3", made.data)
     long = int(bottom[1])
     digit = bottom[0][-1:]
@@ -1106,7 +1106,7 @@ def test_sheet(tmp_path: Path, size: float, columns: int, kinds: list[str]) -> N
         x, y = (size * (0.5 + k) / columns for k in divmod(at, columns))
         radius = size / columns / 4
         contours.append(Contour((Edge((x + radius, y), (x + radius, y), (x, y), 2 * pi),), True))
-    job = make(plan(contours, [], Wanted(offset=size / 1e4, lead=size / 20)), "part", MachineSetup(wire=0.18, gap=0.01))
+    job = make(plan(contours, [], Wanted(offset=size / 1e4, lead=size / 20)), "part", Setup(wire=0.18, gap=0.01))
     sheet = SetupSheet(job, Facts("part.dxf", "part.3b", "mm"))
     sheet.draw()
     sheet.save(str(tmp_path / "sheet.svg"), "svg")
@@ -1160,7 +1160,7 @@ def test_a_part_fills_its_sheet(size: tuple[float, float]) -> None:
     width, height = size
     corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)]
     contour = Contour(tuple(map(Edge, corners, corners[1:] + corners[:1])), True)
-    stock = MachineSetup(offset=0.1, material="1.2379", thickness=20.0)
+    stock = Setup(offset=0.1, material="1.2379", thickness=20.0)
     job = make(plan([contour], [], Wanted(offset=0.1, lead=0.5)), "part", stock)
     sheet = SetupSheet(job, Facts("part.dxf", "part.3b", "mm"))
     sheet.draw()
@@ -1186,7 +1186,7 @@ def test_each_number_belongs_to_one_hole(width: float) -> None:
     contours = [Contour((Edge((x + 0.2, y), (x + 0.2, y), (x, y), 2 * pi),), True) for x, y in places]
     rest = [(0.0, 4.0), (width, 4.0), (width, 9.0), (0.0, 9.0)]
     contours.append(Contour(tuple(Edge(p, q) for p, q in zip(rest, rest[1:] + rest[:1], strict=True)), True))
-    job = make(plan(contours, [], Wanted(offset=0.1, side="inside")), "part", MachineSetup())
+    job = make(plan(contours, [], Wanted(offset=0.1, side="inside")), "part")
     long = "a" * 40 + "b" * 40 + ".3b"
     sheet = SetupSheet(job, Facts("part.dxf", long, "mm"))
     sheet.draw()

@@ -20,7 +20,8 @@ from toolhelp import Run
 from skg.errors import UserError
 from skg.geometry.plane import XY
 from skg.job.file import decoded, dump, encoded, from_data, load, to_data
-from skg.job.job import INTO, KINDS, ROMS, SMALL, Chosen, Job, MachineSetup, Price, TapeForm
+from skg.job.job import KINDS, Chosen, Job, Price, TapeForm
+from skg.job.machine import INTO, ROMS, SMALL, BoardOptions, Policy, Setup
 from skg.job.read_options import OPEN, UNITS, Wishes
 from skg.job.wanted import CLEARANCE_ON, LEAD_SHAPES, SIDES, Partial, Wanted
 from skg.messages.finding import Phrase
@@ -70,15 +71,11 @@ CHOSEN = st.builds(
     st.tuples(LENGTHS, LENGTHS),
     st.builds(Partial, **CONTOUR),
 )
-MACHINES = st.builds(
-    MachineSetup,
+SETUPS = st.builds(
+    Setup,
     wire=maybe(st.floats(0.01, 0.4)),
     offset=st.none(),
-    rom=st.sampled_from(ROMS),
-    ram=st.integers(2, 56),
     feed=st.floats(0.001, 500),
-    small=st.sampled_from(SMALL),
-    into=st.sampled_from(INTO),
     material=st.just("") | WORDS,
     thickness=maybe(st.floats(1e-3, 1000)),
     rates=st.lists(st.floats(1e-3, 1e6), max_size=3).map(tuple),
@@ -98,7 +95,9 @@ JOBS = st.builds(
         open=maybe(st.sampled_from(OPEN)),
         encoding=maybe(WORDS),
     ),
-    machine=MACHINES,
+    setup=SETUPS,
+    board=st.builds(BoardOptions, st.sampled_from(ROMS), st.integers(2, 56)),
+    policy=st.builds(Policy, st.sampled_from(SMALL), st.sampled_from(INTO)),
     price=st.builds(Price, st.lists(st.floats(0, 1e6), max_size=3).map(tuple), LENGTHS, LENGTHS, st.just("") | WORDS),
     tape=st.builds(TapeForm, st.sampled_from(sorted(STYLES)), st.booleans()),
     starts=st.lists(PLACES, max_size=3).map(tuple),
@@ -217,7 +216,7 @@ def test_what_is_wrong_with_a_file(old: str, new: str, told: list[str]) -> None:
 def test_contour_beats_layer_beats_default() -> None:
     job = Job(
         "a.dxf",
-        machine=MachineSetup(wire=0.2, gap=0.01),
+        setup=Setup(wire=0.2, gap=0.01),
         default=Partial(tab=1.0, lead=2.0),
         layers={"Second": Partial(tab=2.0, offset=0.3), "first": Partial(tab=3.0)},
     )
@@ -294,7 +293,7 @@ def test_examples_are_there() -> None:
 def test_settings_of_contours(run: Run, tmp_path: Path) -> None:
     """One is left, one is cut first with an offset of its own, one has its start hole and entry: the report says so."""
     path = plate(tmp_path)
-    job = Job("part.dxf", machine=MachineSetup(offset=0.1), layers={"plate": Partial(tab=1.5, passes=(0.05, 0.0))})
+    job = Job("part.dxf", setup=Setup(offset=0.1), layers={"plate": Partial(tab=1.5, passes=(0.05, 0.0))})
     drawn = open_drawing(job, path.read_bytes())
     numbers = {tuple(drawn.known.boxes[at, :2].tolist()): at for at in range(4)}
     contours = (
@@ -340,7 +339,7 @@ def test_settings_of_contours(run: Run, tmp_path: Path) -> None:
 
 
 def test_an_outline_is_not_cut_before_what_lies_in_it(run: Run, tmp_path: Path) -> None:
-    job = Job("part.dxf", machine=MachineSetup(offset=0.1))
+    job = Job("part.dxf", setup=Setup(offset=0.1))
     drawn = open_drawing(job, plate(tmp_path).read_bytes())
     outline = drawn.known.kinds.tolist().index("outline")
     job = replace(job, contours=(choose(drawn, outline, order=2),))
@@ -359,7 +358,7 @@ def test_an_outline_is_not_cut_before_what_lies_in_it(run: Run, tmp_path: Path) 
 def test_a_drawing_that_has_changed(run: Run, tmp_path: Path) -> None:
     """Moved: start holes and entries move with it, which is said; a contour that is gone is refused, and named."""
     path, file = plate(tmp_path), tmp_path / "part.job.toml"
-    job = Job("part.dxf", machine=MachineSetup(offset=0.1), starts=((30.0, -5.0),))
+    job = Job("part.dxf", setup=Setup(offset=0.1), starts=((30.0, -5.0),))
     drawn = open_drawing(job, path.read_bytes())
     opening = drawn.known.kinds.tolist().index("opening")
     x, y = drawn.known.boxes[opening, :2].tolist()
@@ -413,7 +412,7 @@ def test_a_circle_is_entered_where_that_is_asked(tmp_path: Path, start: XY, entr
     page = drawing()
     page.modelspace().add_circle((20, 20), 10)
     data = saved(page, tmp_path).read_bytes()
-    job = Job("part.dxf", machine=MachineSetup(offset=0.1))
+    job = Job("part.dxf", setup=Setup(offset=0.1))
     settings = choose(open_drawing(job, data), 0, start=start, entry=entry, side=side)
     job = replace(job, contours=(settings,))
     drawn = open_drawing(job, data)
@@ -431,7 +430,7 @@ def test_a_circle_is_entered_where_that_is_asked(tmp_path: Path, start: XY, entr
 
 def test_a_contour_that_moved_is_said(run: Run, tmp_path: Path) -> None:
     path, file = plate(tmp_path), tmp_path / "part.job.toml"
-    job = Job("part.dxf", machine=MachineSetup(offset=0.1))
+    job = Job("part.dxf", setup=Setup(offset=0.1))
     drawn = open_drawing(job, path.read_bytes())
     outline = drawn.known.kinds.tolist().index("outline")
     job = replace(job, contours=(choose(drawn, outline, tab=1.0),))
@@ -466,7 +465,7 @@ def test_files_and_options(
     monkeypatch.chdir(tmp_path)
     plate(tmp_path)
     Path("other").mkdir()
-    Path("part.job.toml").write_bytes(encoded(Job("part.dxf", machine=MachineSetup(offset=0.1))))
+    Path("part.job.toml").write_bytes(encoded(Job("part.dxf", setup=Setup(offset=0.1))))
     kept = {name: Path(name).read_bytes() for name in ("part.dxf", "part.job.toml")}
     with pytest.raises(Exception, match=pattern(*facts)):
         failed = run("cut", *words, *([] if "-o" in words else ["-o", "a.3b"]))
@@ -533,7 +532,7 @@ def test_layers_of_a_job(run: Run, tmp_path: Path) -> None:
 
 def test_progress_and_wanted(tmp_path: Path) -> None:
     """The page gets the steps of a run and the settings of each contour."""
-    job = Job("part.dxf", machine=MachineSetup(offset=0.1), layers={"holes": Partial(cut=False)})
+    job = Job("part.dxf", setup=Setup(offset=0.1), layers={"holes": Partial(cut=False)})
     drawn = open_drawing(job, plate(tmp_path).read_bytes())
     assert [want.cut for want in wanted_of(job, drawn)].count(True) == 1
     steps: list[str] = []

@@ -19,7 +19,8 @@ from toolhelp import Run
 from skg.errors import UserError
 from skg.geometry.placement import Placement
 from skg.job.file import decoded, encoded
-from skg.job.job import Job, MachineSetup
+from skg.job.job import Job
+from skg.job.machine import Setup
 from skg.job.placing import Place
 from skg.messages.finding import Phrase
 from skg.pipeline.steps import choose, cut_drawing, open_drawing, plan_drawing, written
@@ -123,7 +124,7 @@ def test_places_of_a_job_are_the_drawings(tmp_path: Path) -> None:
     The job comes back from its file."""
     data = saved(part(), tmp_path).read_bytes()
     place = Place((3.0, 2.0), 90.0, "x", 2.0)
-    job = Job("part.dxf", machine=MachineSetup(offset=0.1), place=place)
+    job = Job("part.dxf", setup=Setup(offset=0.1), place=place)
     drawn = open_drawing(job, data)
     circle = next(
         number
@@ -187,7 +188,7 @@ def test_a_refusal_says_that_a_drawing_was_moved_near(tmp_path: Path, place: Pla
     """Its places are where the report and the page have the drawing, wherever this lies on the machine."""
     page = drawing()
     page.modelspace().add_lwpolyline([(x + 1e6, y - 2e6) for x, y in [(0, 0), (40, 40), (40, 0), (0, 40)]], close=True)
-    job = Job("part.dxf", machine=MachineSetup(offset=0.1), place=place)
+    job = Job("part.dxf", setup=Setup(offset=0.1), place=place)
     with pytest.raises(UserError) as failed:
         cut_drawing(job, open_drawing(job, saved(page, tmp_path).read_bytes()))
     finding = failed.value.finding

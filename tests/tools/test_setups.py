@@ -136,7 +136,8 @@ def test_the_form_of_the_tape(run: Run, tmp_path: Path) -> None:
 def test_a_setting_that_is_not_given_is_the_jobs_default() -> None:
     """Options that nobody gives are left to the job: it has their defaults."""
     job = Job("a.dxf")
-    usual = {**vars(job.read), **vars(job.machine), **vars(TapeForm()), **vars(Wanted())}
+    parts = (job.read, job.setup, job.board, job.policy, TapeForm(), Wanted())
+    usual = {name: value for part in parts for name, value in vars(part).items()}
     both = {
         one.name: one.default
         for one in command.params

@@ -11,7 +11,6 @@ from facthelp import pattern
 from skg.cutting.ladder import make
 from skg.errors import UserError
 from skg.geometry.contour import Contour, Edge
-from skg.job.job import MachineSetup
 from skg.job.wanted import Wanted
 from skg.messages.finding import Phrase
 from skg.planning.plan import plan
@@ -32,7 +31,7 @@ def plate() -> list[Contour]:
 
 def cut(contours: list[Contour], wanted: list[Wanted]) -> list[int]:
     """The numbers of the contours in the order in which a checked tape cuts them."""
-    return [planned.number for planned in make(plan(contours, [], wanted), "plate", MachineSetup()).contours]
+    return [planned.number for planned in make(plan(contours, [], wanted), "plate").contours]
 
 
 def test_what_is_left_stays_in_the_nesting() -> None:
@@ -65,7 +64,7 @@ def test_entry_and_start_hole(place: tuple[float, float]) -> None:
     hole = -5.0, -4.0
     (given,) = plan([plate()[0]], [], replace(wanted, start=hole))
     assert given.start == hole and dist(given.entry, place) < 0.5
-    assert len(make([chosen], "plate", MachineSetup()).tape.blocks) >= 6
+    assert len(make([chosen], "plate").tape.blocks) >= 6
 
 
 def test_order() -> None:

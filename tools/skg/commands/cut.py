@@ -35,7 +35,8 @@ from skg.files import binary_output, read_bytes, write_bytes
 from skg.geometry.plane import XY
 from skg.job import file as job_files
 from skg.job import values
-from skg.job.job import INTO, ROMS, SMALL, Job
+from skg.job.job import Job
+from skg.job.machine import INTO, ROMS, SMALL
 from skg.job.placing import MIRRORS
 from skg.job.read_options import OPEN, START, UNITS
 from skg.job.values import MOST_OFFSET
@@ -430,7 +431,7 @@ def _cut(
     names = [_Names(output, program, sheet, holes).of(cut.member, job.tape.short_name) for cut in cuts]
     if len(cuts) > 1:
         refuse_onto([name for each in names for name in each if name], [path, file, *filter(None, [save_job])])
-    thick, tapes, others = job.machine.thickness, [], []
+    thick, tapes, others = job.setup.thickness, [], []
     for cut, name in zip(cuts, names, strict=True):
         if not dialect and name.output != "-":
             job.tape.refuse_name(Path(name.output).name)
@@ -464,7 +465,7 @@ def _cut(
     result: list[tuple[CutDrawing, list[Finding]]] = []
     for cut, name in zip(cuts, names, strict=True):
         if dialect is None:
-            more = unmarked(name.output, cut.result.tape, job.machine.rom)
+            more = unmarked(name.output, cut.result.tape, job.board.rom)
         else:
             more = to_be_set(cut.result.contours, dialect)
         if name.holes:
@@ -507,8 +508,8 @@ def _for_machine(result: CutResult, dialect: GcodeDialect, output: str) -> bytes
     """The same cuts as G-code."""
     from skg.dialects.written import machine_program
 
-    positions = "machine" if result.machine.is_without_drift else "programmed"
-    return machine_program(result.contours, result.tape, positions, result.machine.feed, dialect, output).encode()
+    positions = "machine" if result.board.is_without_drift else "programmed"
+    return machine_program(result.contours, result.tape, positions, result.setup.feed, dialect, output).encode()
 
 
 def is_job_file(name: str) -> bool:
@@ -534,7 +535,7 @@ def _asked(context: click.Context, file: str, kept: job_files.Tables, starts: tu
 
 def _used(name: str, kept: job_files.Tables, job: Job) -> list[Finding]:
     """The setup's name, with what it has set."""
-    parts = {table: vars(getattr(job, table)) for table in kept}
+    parts = {table: job_files.table_of(job, table) for table in kept}
     used = job_files.pairs(
         {key: value for table, keys in kept.items() for key, value in keys.items() if parts[table][key] == value}
     )

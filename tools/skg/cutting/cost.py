@@ -34,13 +34,13 @@ class Cost:
     @classmethod
     def of(cls, result: CutResult, price: Price) -> Cost:
         """The cost of a tape at some prices. The area is the wire's path, leads included, times the thickness."""
-        machine = result.machine
-        thick = machine.thickness
+        setup = result.setup
+        thick = setup.thickness
         areas = tuple(round(length * thick) for length in result.checked.lengths) if thick else ()
         holes = len(holes_of(result.contours))
         passes = sum(len(planned.passes) for planned in result.contours)
         is_wanted = any((*price.per_area, price.per_hole, price.per_pass))
-        is_without = not thick and any((*price.per_area, *machine.rates))
+        is_without = not thick and any((*price.per_area, *setup.rates))
         parts: tuple[Decimal, Decimal, Decimal] | None = None
         if is_wanted and (thick or not any(price.per_area)):
             of_passes = [

@@ -16,7 +16,7 @@ from skg.errors import UserError
 from skg.geometry.contour import Contour, Edge
 from skg.geometry.fitting import curve_edge
 from skg.geometry.plane import XY, polar
-from skg.job.job import MachineSetup
+from skg.job.machine import UNASKED
 from skg.job.wanted import Wanted
 from skg.messages.finding import Finding
 from skg.planning.plan import plan
@@ -90,8 +90,8 @@ class Gear:
         if not wanted.tab:
             contours = [planned if planned.number else self._from_a_tip(planned, wanted.lead) for planned in contours]
             with suppress(UserError):
-                return run(Program(contours, name, self._parts), MachineSetup(small="", into=""))
-        return make(contours, name, MachineSetup(small="", into=""))
+                return run(Program(contours, name, self._parts), policy=UNASKED)
+        return make(contours, name, policy=UNASKED)
 
     def _from_a_tip(self, planned: PlannedContour, lead: float) -> PlannedContour:
         """The outline, entered where a tooth begins: there the next one goes on."""

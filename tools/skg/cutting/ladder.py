@@ -18,7 +18,7 @@ from skg.cutting.program import Program, Step, writes_fillets
 from skg.cutting.progress import Progress, in_silence
 from skg.errors import UserError
 from skg.geometry.offset import NoRoom
-from skg.job.job import MachineSetup
+from skg.job.machine import USUAL_BOARD, USUAL_POLICY, USUAL_SETUP, BoardOptions, Policy, Setup
 from skg.messages.finding import Finding, Phrase
 from skg.planning.copies import Pattern
 from skg.planning.islands import islands
@@ -56,7 +56,8 @@ class CutResult:
     data: bytes
     tape: Tape
     checked: Checked
-    machine: MachineSetup
+    setup: Setup
+    board: BoardOptions
     skipped: tuple[Skipped, ...] = ()
 
     @property
@@ -67,7 +68,7 @@ class CutResult:
     @property
     def seconds(self) -> float:
         """Time of cutting, s."""
-        return sum(length / self.machine.pace(turn) for turn, length in enumerate(self.checked.lengths)) * 60
+        return sum(length / self.setup.pace(turn) for turn, length in enumerate(self.checked.lengths)) * 60
 
 
 #: Why a contour does not go through: an error of the ROM, or what the check finds wrong.
@@ -77,7 +78,9 @@ _Trouble = ErrorLine | list[Misfit]
 def make(
     contours: list[PlannedContour],
     title: str,
-    machine: MachineSetup,
+    setup: Setup = USUAL_SETUP,
+    board: BoardOptions = USUAL_BOARD,
+    policy: Policy = USUAL_POLICY,
     progress: Progress = in_silence,
     pattern: Pattern | None = None,
 ) -> CutResult:
@@ -87,11 +90,11 @@ def make(
     follow, for this contour alone. Nothing is returned that is wrong: a contour that cannot be cut, or that is not cut
     as it is drawn, is a `UserError`. `pattern`: copies of all contours, which are cut instead.
     """
-    first = _made(_Ladder(contours, title, machine, progress))
+    first = _made(_Ladder(contours, title, setup, board, policy, progress))
     if not pattern:
         return first
     # (what is wrong with the part is told of once)
-    result = _made(_Ladder(pattern.all_of(first.contours), title, machine, progress, pattern))
+    result = _made(_Ladder(pattern.all_of(first.contours), title, setup, board, policy, progress, pattern))
     return replace(result, skipped=first.skipped + result.skipped)
 
 
@@ -100,16 +103,18 @@ def _made(ladder: _Ladder) -> CutResult:
     ladder.leave_short()
     ladder.tame()
     result = ladder.around_tips(ladder.through())
-    refusal.refuse(result.checked, result.contours, ladder.machine)
+    refusal.refuse(result.checked, result.contours, ladder.board, ladder.policy)
     return replace(result, skipped=tuple(ladder.skipped))
 
 
-def run(program: Program, machine: MachineSetup) -> CutResult:
+def run(
+    program: Program, setup: Setup = USUAL_SETUP, board: BoardOptions = USUAL_BOARD, policy: Policy = USUAL_POLICY
+) -> CutResult:
     """Let the board run a program, check the tape; one that is refused, or wrong, is a `UserError`."""
-    result = _tried(program, machine, in_silence)
+    result = _tried(program, setup, board, in_silence)
     if isinstance(result, ErrorLine):
         raise UserError(refusal.meaning(result.number))
-    refusal.refuse(result.checked, result.contours, machine)
+    refusal.refuse(result.checked, result.contours, board, policy)
     return result
 
 
@@ -154,14 +159,16 @@ class _Ladder:
         self,
         contours: list[PlannedContour],
         title: str,
-        machine: MachineSetup,
+        setup: Setup,
+        board: BoardOptions,
+        policy: Policy,
         progress: Progress,
         pattern: Pattern | None = None,
     ) -> None:
         self.contours = dict(enumerate(contours))
         self.skipped: list[Skipped] = []
         self.title = title
-        self.machine = machine
+        self.setup, self.board, self.policy = setup, board, policy
         self.progress = progress
         self.pattern = pattern
 
@@ -169,8 +176,8 @@ class _Ladder:
         """Leave contours that are too short for their tab; a `UserError` where they are refused."""
         longest = {number: planned.remarks.longest_tab for number, planned in self.contours.items()}
         fits = {number: length for number, length in longest.items() if length is not None}
-        if fits and self.machine.small != "leave":
-            raise refusal.without_tab(self.contours, fits, self.machine)
+        if fits and self.policy.small != "leave":
+            raise refusal.without_tab(self.contours, fits, self.policy)
         self._leave({number: refusal.too_short(fit) for number, fit in fits.items()})
 
     def tame(self) -> None:
@@ -212,7 +219,7 @@ class _Ladder:
             tried = self._try(self.contours | around)
             if isinstance(tried, CutResult):
                 with suppress(UserError):
-                    refusal.refuse(tried.checked, tried.contours, self.machine)
+                    refusal.refuse(tried.checked, tried.contours, self.board, self.policy)
                     return tried
                 break
             around = {number: planned for number, planned in around.items() if number not in tried}
@@ -221,9 +228,9 @@ class _Ladder:
     def _try(self, contours: dict[int, PlannedContour]) -> CutResult | Mapping[int, _Trouble]:
         """Cut some contours: what comes of it, or which do not go through."""
         numbers, program = list(contours), Program(list(contours.values()), self.title, pattern=self.pattern)
-        result = _tried(program, self.machine, self.progress)
+        result = _tried(program, self.setup, self.board, self.progress)
         if isinstance(result, ErrorLine):
-            refused = _refused(program, self.machine) or dict.fromkeys(range(len(numbers)), result)
+            refused = _refused(program, self.board) or dict.fromkeys(range(len(numbers)), result)
             return {numbers[index]: error for index, error in refused.items()}
         misfits: dict[int, list[Misfit]] = defaultdict(list)
         for fault in result.checked.faults:
@@ -256,7 +263,7 @@ class _Ladder:
 
     def _reason(self, trouble: _Trouble) -> Phrase | None:
         """The reason why a contour that nothing helps is left; None where it may not be."""
-        if self.machine.small != "leave" or isinstance(trouble, ErrorLine):
+        if self.policy.small != "leave" or isinstance(trouble, ErrorLine):
             return None
         return next(filter(None, (refusal.why_no_room(fault) for fault in trouble)), None)
 
@@ -264,9 +271,9 @@ class _Ladder:
         """Report a contour that nothing helps."""
         planned = self.contours[number]
         if not isinstance(trouble, ErrorLine):
-            return refusal.off_drawing(trouble, planned, self.machine)
+            return refusal.off_drawing(trouble, planned, self.board, self.policy)
         _, steps, _ = Program([planned], "").unnumbered()
-        fed, done = feed_lines([_text([step]) for step in steps], self.machine.rom, self.machine.ram)
+        fed, done = feed_lines([_text([step]) for step in steps], self.board.rom, self.board.ram)
         if not fed.error:
             return UserError(refusal.meaning(trouble.number).about(planned.number))
         place = [planned.entry, *(step.place for step in steps[: done + 1] if step.place)][-1]
@@ -276,9 +283,9 @@ class _Ladder:
     def _leave_without_room(self, no_room: dict[int, NoRoom], among: Iterable[int]) -> None:
         """Leave contours that the wire does not get around; where they are refused, a `UserError` on all that there are
         among some."""
-        if no_room and self.machine.small != "leave":
+        if no_room and self.policy.small != "leave":
             no_room = {number: why for number in among if (why := _no_room(self.contours[number]))}
-            raise refusal.without_room(self.contours, no_room, self.machine)
+            raise refusal.without_room(self.contours, no_room, self.policy)
         self._leave({number: no_room[number].why for number in no_room})
 
     def _leave(self, reasons: dict[int, Phrase]) -> None:
@@ -313,38 +320,38 @@ def _no_room(planned: PlannedContour) -> NoRoom | None:
     return None
 
 
-def _tried(program: Program, machine: MachineSetup, progress: Progress) -> CutResult | ErrorLine:
+def _tried(program: Program, setup: Setup, board: BoardOptions, progress: Progress) -> CutResult | ErrorLine:
     """Let the board run a program, and check the tape; the error where the ROM refuses it."""
     count = len(program.contours)
     progress("board", 0, count)
-    text, is_stored, fed = _through(program, machine, lambda done: progress("board", done, count))
+    text, is_stored, fed = _through(program, board, lambda done: progress("board", done, count))
     if fed.error:
         return fed.error
     progress("check", 0, count)
     tape = tapes.parse(fed.tape, program.title)
-    checked = check(tape, program.contours, machine.is_without_drift)
-    return CutResult(program.contours, text, is_stored, fed.tape, tape, checked, machine)
+    checked = check(tape, program.contours, board.is_without_drift)
+    return CutResult(program.contours, text, is_stored, fed.tape, tape, checked, setup, board)
 
 
-def _refused(program: Program, machine: MachineSetup) -> dict[int, ErrorLine]:
+def _refused(program: Program, board: BoardOptions) -> dict[int, ErrorLine]:
     """The contours, by their numbers, whose routes the ROM refuses."""
     _, *routes, _ = map(_text, program.unnumbered())
-    return refused_routes(routes, machine.rom, machine.ram)
+    return refused_routes(routes, board.rom, board.ram)
 
 
-def _through(program: Program, machine: MachineSetup, on_done: Callable[[int], None]) -> tuple[str, bool, Fed]:
+def _through(program: Program, board: BoardOptions, on_done: Callable[[int], None]) -> tuple[str, bool, Fed]:
     """The program's text, whether it is stored, and what the board made of it: with line numbers where it fits."""
     text = ""
     copies = program.pattern.copies.count if program.pattern else 1
-    if _LEAST_STORED * len(program.contours) <= 1024 * machine.ram * copies:
+    if _LEAST_STORED * len(program.contours) <= 1024 * board.ram * copies:
         with suppress(UserError):
             text = program.numbered()
     if text:
-        fed = feed(text, machine.rom, machine.ram)
+        fed = feed(text, board.rom, board.ram)
         if fed.error is None or fed.error.number != MEMORY_FULL:
             return text, True, fed
     parts, written = tee(map(_text, program.unnumbered()))
-    fed = feed_routes(parts, machine.rom, machine.ram, on_done)
+    fed = feed_routes(parts, board.rom, board.ram, on_done)
     return "".join(written), False, fed
 
 

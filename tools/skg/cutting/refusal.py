@@ -11,7 +11,7 @@ from skg.checking.gouges import Crossing
 from skg.checking.wire_path import LIMIT, Misfit
 from skg.errors import UserError
 from skg.geometry.offset import NoRoom
-from skg.job.job import MachineSetup
+from skg.job.machine import BoardOptions, Policy
 from skg.messages.finding import Finding, Phrase
 from skg.planning.planned import PlannedContour
 from skg.planning.room import tightest
@@ -30,7 +30,7 @@ def too_short(fit: float) -> Phrase:
     return Phrase("too-short-for-tab", fit=floor(fit * 1000 - 1e-6) / 1000)
 
 
-def without_tab(contours: Mapping[int, PlannedContour], fits: dict[int, float], machine: MachineSetup) -> UserError:
+def without_tab(contours: Mapping[int, PlannedContour], fits: dict[int, float], policy: Policy) -> UserError:
     """Report contours that their tab does not fit: the shortest one."""
     number = min(fits, key=fits.__getitem__)
     planned = contours[number]
@@ -39,17 +39,17 @@ def without_tab(contours: Mapping[int, PlannedContour], fits: dict[int, float], 
         "name": planned.name,
         "why": too_short(fits[number]),
         "more": more,
-        "leave": _or_leave(machine),
+        "leave": _or_leave(policy),
     }
     return UserError(Finding("tab-too-long", contour=planned.number, place=planned.entry, **sentence))
 
 
-def without_room(contours: Mapping[int, PlannedContour], none: dict[int, NoRoom], machine: MachineSetup) -> UserError:
+def without_room(contours: Mapping[int, PlannedContour], none: dict[int, NoRoom], policy: Policy) -> UserError:
     """Report contours that the wire does not get around: the tightest one."""
     number, fit = tightest(contours, none)
     planned, no_room = contours[number], none[number]
     more = Phrase("more-without-room", count=len(none) - 1) if len(none) > 1 else None
-    sentence: dict[str, Any] = {"name": planned.name, "why": no_room.why, "more": more, "leave": _or_leave(machine)}
+    sentence: dict[str, Any] = {"name": planned.name, "why": no_room.why, "more": more, "leave": _or_leave(policy)}
     about: dict[str, Any] = {"contour": planned.number, "place": no_room.place}
     if no_room.is_crossing:
         return UserError(Finding("no-room-crossing", **about, **sentence))
@@ -66,8 +66,8 @@ def _fit(planned: PlannedContour, fit: float | None) -> Phrase | None:
     return Phrase("fits-in-passes", fit=fit, last=fit - more) if fit > more else Phrase("fits-no-pass", fit=fit)
 
 
-def _or_leave(machine: MachineSetup) -> Phrase | None:
-    return Phrase("or-leave") if machine.small else None
+def _or_leave(policy: Policy) -> Phrase | None:
+    return Phrase("or-leave") if policy.small else None
 
 
 def why_no_room(fault: Misfit) -> Phrase | None:
@@ -77,24 +77,24 @@ def why_no_room(fault: Misfit) -> Phrase | None:
     return Phrase("room-slot", place=fault.place) if fault.is_missed else None
 
 
-def off_drawing(faults: list[Misfit], planned: PlannedContour, machine: MachineSetup) -> UserError:
+def off_drawing(faults: list[Misfit], planned: PlannedContour, board: BoardOptions, policy: Policy) -> UserError:
     """Report where a contour's wire is not where the drawing has it: first where it comes into the contour."""
     fault = min(faults, key=lambda fault: not fault.is_into)
     about: dict[str, Any] = {"name": planned.name, "contour": planned.number, "place": fault.place}
     if why := why_no_room(fault):
-        return UserError(Finding("into-itself", why=why, r=abs(planned.widest), leave=_or_leave(machine), **about))
-    advice = _advice(fault, planned, machine)
+        return UserError(Finding("into-itself", why=why, r=abs(planned.widest), leave=_or_leave(policy), **about))
+    advice = _advice(fault, planned, board)
     if fault.off < inf:
         return UserError(Finding("off-drawing", off=1000 * fault.off, limit=1000 * LIMIT, advice=advice, **about))
     return UserError(Finding("far-off-drawing", advice=advice, **about))
 
 
-def refuse(checked: Checked, contours: list[PlannedContour], machine: MachineSetup) -> None:
+def refuse(checked: Checked, contours: list[PlannedContour], board: BoardOptions, policy: Policy) -> None:
     """Raise what is wrong with a tape, if anything is, as a `UserError`."""
     if checked.faults:
         first = min(checked.faults, key=lambda fault: (not fault.is_into, fault.contour)).contour
         faults = [fault for fault in checked.faults if fault.contour == first]
-        raise off_drawing(faults, contours[first], machine)
+        raise off_drawing(faults, contours[first], board, policy)
     for cut in checked.cuts:
         planned = contours[cut.contour]
         if planned.contour.is_closed and not planned.tabs.each and cut.gap != (0, 0):
@@ -111,11 +111,11 @@ def refuse(checked: Checked, contours: list[PlannedContour], machine: MachineSet
         for crossing in checked.crossings
         if all(contours[number].contour.is_closed for number in (crossing.contour, crossing.other))
     ]
-    if spoilt and machine.into != "cut":
-        raise _spoilt(spoilt, contours, machine)
+    if spoilt and policy.into != "cut":
+        raise _spoilt(spoilt, contours, policy)
 
 
-def _spoilt(spoilt: list[Crossing], contours: list[PlannedContour], machine: MachineSetup) -> UserError:
+def _spoilt(spoilt: list[Crossing], contours: list[PlannedContour], policy: Policy) -> UserError:
     """Report gouges: the deepest one."""
     worst = max(spoilt, key=lambda crossing: (crossing.is_through, crossing.depth))
     return UserError(
@@ -125,7 +125,7 @@ def _spoilt(spoilt: list[Crossing], contours: list[PlannedContour], machine: Mac
             other=contours[worst.other].name,
             depth=depth(worst),
             more=Phrase("more-would-gouge", count=len(spoilt) - 1) if len(spoilt) > 1 else None,
-            cut=Phrase("or-cut-anyway") if machine.into else None,
+            cut=Phrase("or-cut-anyway") if policy.into else None,
             contour=contours[worst.contour].number,
             place=worst.place,
         )
@@ -137,9 +137,9 @@ def depth(crossing: Crossing) -> Phrase:
     return Phrase("depth-or-more" if crossing.is_through else "depth", depth=crossing.depth)
 
 
-def _advice(fault: Misfit, planned: PlannedContour, machine: MachineSetup) -> Phrase:
+def _advice(fault: Misfit, planned: PlannedContour, board: BoardOptions) -> Phrase:
     """Remedies for a wire that is off the drawing."""
-    if not machine.is_without_drift:
+    if not board.is_without_drift:
         return Phrase("advice-no-drift")
     edge = min(planned.contour.edges, key=lambda edge: edge.far(fault.place))
     noun = Phrase("edge-curve" if edge.nodes else "edge-arc" if edge.centre else "edge-line")

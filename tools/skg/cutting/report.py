@@ -12,7 +12,7 @@ from skg.cutting.holes import holes_of
 from skg.cutting.ladder import CutResult
 from skg.cutting.manner import manners, numbered, stops
 from skg.cutting.refusal import depth
-from skg.job.job import MachineSetup
+from skg.job.machine import Setup
 from skg.messages.finding import Finding, Phrase
 from skg.planning import nesting, walls
 from skg.planning.nesting import in_brackets
@@ -49,7 +49,7 @@ def findings(result: CutResult, offset: float = 0.0) -> list[Finding]:
 
 def _facts(result: CutResult, offset: float) -> Iterator[Finding]:
     """Order, manners, length, how the tape was made and what the check found."""
-    machine, contours = result.machine, result.contours
+    contours, board = result.contours, result.board
     kinds = Counter(planned.kind for planned in contours)
     holes = [hole for hole, _ in holes_of(contours)]
     more = len(holes) - _PLACES
@@ -65,13 +65,13 @@ def _facts(result: CutResult, offset: float) -> Iterator[Finding]:
         "cut-length",
         length=result.cut_length,
         time=duration(result.seconds),
-        pace=pace(machine),
+        pace=pace(result.setup),
         blocks=Phrase("count-blocks", count=len(result.tape.blocks)),
         stops=Phrase("count-stops", count=len(result.tape.stops)),
     )
     if reasons := tuple(stops(contours)):
         yield Finding("two-stops", reasons=reasons)
-    yield Finding("made-stored" if result.is_stored else "made-loading", rom=machine.rom, ram=machine.ram)
+    yield Finding("made-stored" if result.is_stored else "made-loading", rom=board.rom, ram=board.ram)
     drift = result.checked.drift
     closing = None if drift else _closing(result.checked.cuts, contours)
     yield Finding("checked", off=1000 * result.checked.off, closing=closing)
@@ -93,9 +93,9 @@ def figures(result: CutResult, cost: Cost) -> Phrase:
     )
 
 
-def pace(machine: MachineSetup) -> Phrase:
+def pace(setup: Setup) -> Phrase:
     """The feed that the time goes by, or the rates."""
-    return Phrase("at-rates", rates=machine.rates) if machine.has_rates else Phrase("at-feed", feed=machine.feed)
+    return Phrase("at-rates", rates=setup.rates) if setup.has_rates else Phrase("at-feed", feed=setup.feed)
 
 
 def _crossings(result: CutResult) -> Iterator[Finding]:

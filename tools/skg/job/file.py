@@ -16,7 +16,8 @@ from typing import Any
 
 from skg.errors import UserError
 from skg.job import values
-from skg.job.job import INTO, KINDS, ROMS, SMALL, Chosen, Job, MachineSetup, Price, TapeForm
+from skg.job.job import KINDS, Chosen, Job, Price, TapeForm
+from skg.job.machine import INTO, ROMS, SMALL, BoardOptions, Policy, Setup
 from skg.job.placing import MIRRORS, Copies, Place
 from skg.job.read_options import OPEN, UNITS, Wishes
 from skg.job.wanted import CLEARANCE_ON, LEAD_SHAPES, SIDES, Partial
@@ -122,15 +123,15 @@ TABLES = {
     "price": _PRICE,
 }
 _LISTS = {"layer": _LAYER, "contour": _CONTOUR}
-#: What each table is made into.
-_PARTS: dict[str, Callable[..., Any]] = {
-    "read": partial(Wishes, open=None),
-    "machine": MachineSetup,
-    "place": Place,
-    "copies": Copies,
-    "default": Partial,
-    "tape": TapeForm,
-    "price": Price,
+#: What each table is made into: fields of a job.
+_PARTS: dict[str, dict[str, Callable[..., Any]]] = {
+    "read": {"read": partial(Wishes, open=None)},
+    "machine": {"setup": Setup, "board": BoardOptions, "policy": Policy},
+    "place": {"place": Place},
+    "copies": {"copies": Copies},
+    "default": {"default": Partial},
+    "tape": {"tape": TapeForm},
+    "price": {"price": Price},
 }
 #: The keys that a setup may have: what a shop keeps for one machine and wire.
 SETUP: dict[str, tuple[str, ...]] = {
@@ -246,7 +247,11 @@ def _made(tables: Tables, name: str) -> dict[str, Any]:
 
 def made(tables: Tables) -> dict[str, Any]:
     """The parts of a job that tables of checked values are, by their names as fields."""
-    return {key: _PARTS[key](**keys) for key, keys in tables.items()}
+    return {
+        field: part(**{key: value for key, value in keys.items() if key in vars(part())})
+        for table, keys in tables.items()
+        for field, part in _PARTS[table].items()
+    }
 
 
 def _layers(entries: list[tuple[dict[str, Any], str]], name: str) -> dict[str, Partial]:
@@ -329,11 +334,7 @@ def _told(value: object) -> str:
 
 def to_data(job: Job) -> dict[str, Any]:
     """The job as plain data: what is not said is left out."""
-    usual = made({key: {} for key in _PARTS if key != "default"})
-    tables = {
-        key: {name: value for name, value in vars(getattr(job, key)).items() if value != getattr(part, name)}
-        for key, part in usual.items()
-    } | {"default": job.default.said()}
+    tables = {table: _changed(job, table) for table in _PARTS} | {"default": job.default.said()}
     return {
         "schema": SCHEMA,
         "drawing": job.drawing,
@@ -341,6 +342,19 @@ def to_data(job: Job) -> dict[str, Any]:
         **{key: {name: _plain(value) for name, value in tables[key].items()} for key in TABLES if tables[key]},
         **_lists(job),
     }
+
+
+def table_of(job: Job, table: str) -> dict[str, Any]:
+    """The keys of a table with a job's values."""
+    return {key: value for field in _PARTS[table] for key, value in vars(getattr(job, field)).items()}
+
+
+def _changed(job: Job, table: str) -> dict[str, Any]:
+    """The keys of a table that are not as usual; those of several parts in the table's order."""
+    parts = _PARTS[table]
+    usual = {key: value for part in parts.values() for key, value in vars(part()).items()}
+    found = {key: value for key, value in table_of(job, table).items() if value != usual[key]}
+    return found if len(parts) == 1 else {key: found[key] for key in TABLES[table] if key in found}
 
 
 def _lists(job: Job) -> dict[str, Any]:

@@ -481,7 +481,7 @@ class SetupSheet:
                 self._text(place, *_fitted(note, wide - 4), _INK, va="center")
         for y in (_MARGIN, _MARGIN + _HEAD - 2):
             self.axes.plot((_MARGIN, page[0] - _MARGIN), (y, y), color=_INK, linewidth=0.5)
-        setup = result.machine
+        setup = result.setup
         untold = text(Phrase("sheet-not-told"))
         wire = untold
         if setup.wire is not None:
@@ -503,7 +503,7 @@ class SetupSheet:
                 ("material", setup.material or untold),
                 ("thickness", f"{short(setup.thickness)} mm" if setup.thickness else untold),
                 ("wire", wire),
-                ("rom", setup.rom),
+                ("rom", result.board.rom),
             ),
             (
                 ("start", f"{shown(result.contours[0].start)} mm"),

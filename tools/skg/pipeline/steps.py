@@ -124,13 +124,13 @@ class DrawnJob:
         wanted = [want for want in wanted_of(job, self) if want.cut]
         reach = max((2 * (want.lead + want.widest) for want in wanted), default=0.0)
         kerf = 2 * max((want.widest for want in wanted), default=0.0)
-        key = placement, pattern, reach, kerf, job.machine.into
+        key = placement, pattern, reach, kerf, job.policy.into
         if key not in self._placed:
             self._placed.clear()
             if pattern:
                 with placing.told_as_drawn(placement):
                     cut = [placement.contour(contour) for contour in self._cut(job)]
-                    refuse_near(pattern, cut, kerf, job.machine.into == "cut")
+                    refuse_near(pattern, cut, kerf, job.policy.into == "cut")
             self._placed[key] = placing.placed_nesting(self.cut_nesting, placement, pattern, reach)
         return self._placed[key]
 
@@ -263,7 +263,7 @@ def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> C
     drawn.placed(job).release()
     with placing.told_as_drawn(placement, *drawn.source):
         pattern = drawn.pattern(job)
-        result = make(contours, job.drawing, job.machine, progress, pattern)
+        result = make(contours, job.drawing, job.setup, job.board, job.policy, progress, pattern)
     left = {number: UNWANTED for number, want in enumerate(wanted_of(job, drawn)) if not want.cut}
     if drawn.member:
         others = enumerate(wanted_of(job, replace(drawn, member="")))
@@ -326,7 +326,7 @@ def _findings(
     # (start holes are drilled on the machine)
     report += [
         finding if finding.code == "order-of-cutting" else placing.as_drawn(finding, placement)
-        for finding in findings(result, job.machine.distance)
+        for finding in findings(result, job.setup.distance)
     ]
     wanted = wanted_of(job, drawn)
     if stock := max((want.passes[-1] for want in wanted if want.cut), default=0.0):

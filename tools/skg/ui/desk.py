@@ -131,7 +131,7 @@ class Desk:
         files = {"job": self.job()}
         for cut in cuts:
             own = f"{cut.member}/" if cut is not cuts[0] else ""
-            thick, contours = self._job.machine.thickness, cut.result.contours
+            thick, contours = self._job.setup.thickness, cut.result.contours
             files |= {f"{own}tape": cut.result.data, f"{own}program": cut.result.program.encode("ascii")}
             files[f"{own}holes"] = holes_files.table(contours)
             if thick is not None:

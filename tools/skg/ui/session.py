@@ -13,7 +13,8 @@ from threading import Condition, Event, Lock, Thread
 from skg.errors import UserError, of_system
 from skg.files import is_same_file, read_bytes, write_bytes
 from skg.job import file as job_files
-from skg.job.job import ROMS, Job, TapeForm
+from skg.job.job import Job, TapeForm
+from skg.job.machine import ROMS
 from skg.job.setups import Setups
 from skg.messages.finding import Finding, Phrase
 from skg.pipeline.pairing import DIE, PUNCH, ending_of, file_name
