@@ -11,9 +11,8 @@ from romhelp import ROM, ROOT
 from skg.board import symbols
 
 sys.path.insert(0, str(ROOT / "asm"))
-import facts
-
 import build
+import facts
 
 NAMES = {"CELL": 0x20B0, "NEXT": 0x20B1, "PAGE": 0x2300}
 

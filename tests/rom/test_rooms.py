@@ -11,9 +11,8 @@ from facthelp import each_says, pattern, says
 from romhelp import ROOT
 
 sys.path.insert(0, str(ROOT / "asm"))
-import rooms
-
 import build
+import rooms
 
 #: In the process that has read the sources, which takes a second.
 pytestmark = pytest.mark.xdist_group("rooms")

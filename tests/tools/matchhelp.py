@@ -20,8 +20,8 @@ from skg.geometry.contour import Contour, CurveNode, Edge
 from skg.geometry.edge_arrays import boxes_of
 from skg.geometry.plane import XY
 from skg.job.matching import Known
-from skg.job.read_options import Wishes
-from skg.job.wanted import Partial
+from skg.job.read_options import ReadOptions
+from skg.job.wanted import Overrides
 from skg.planning.nesting import Nesting
 from skg.reading.read import read
 
@@ -158,7 +158,7 @@ def counted(drawn: Sequence[Contour], edit: str, are_together: bool = True, seed
     before = known(drawn)
     contours, numbers = EDITS[edit](drawn, Random(seed))
     after = known(contours)
-    chosen = [before.choose(at, Partial()) for at in range(len(before.contours))]
+    chosen = [before.choose(at, Overrides()) for at in range(len(before.contours))]
     if are_together:
         found = after.find(chosen, before.box).found
     else:
@@ -182,7 +182,7 @@ def drawn_in(paths: Sequence[Path]) -> Iterator[list[Contour]]:
             yield read(path.read_bytes(), path.name).contours
         except UserError:
             with suppress(UserError):
-                yield read(path.read_bytes(), path.name, Wishes(units="mm")).contours
+                yield read(path.read_bytes(), path.name, ReadOptions(units="mm")).contours
 
 
 if __name__ == "__main__":

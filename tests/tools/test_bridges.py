@@ -12,7 +12,7 @@ from skg.errors import UserError
 from skg.job import file as job_files
 from skg.job.job import Job
 from skg.job.machine import Setup
-from skg.job.read_options import Wishes
+from skg.job.read_options import ReadOptions
 from skg.pipeline.steps import cut_drawing, open_drawing
 
 #: An outline that is open by 0.4 mm at its lower left corner.
@@ -34,7 +34,7 @@ def drawing(folder: Path, by: float = 0.0, *circles: tuple[float, float, float])
 
 
 def job(**read: object) -> Job:
-    return Job("part.dxf", read=Wishes(**{"open": None, **read}), setup=Setup(wire=0.2))
+    return Job("part.dxf", read=ReadOptions(**{"open": None, **read}), setup=Setup(wire=0.2))
 
 
 def test_a_bridge_closes_an_outline_and_is_kept(tmp_path: Path) -> None:

@@ -15,7 +15,7 @@ from toolhelp import Run
 from skg.errors import UserError
 from skg.messages.finding import Phrase
 from skg.reading import budget
-from skg.reading.read import Reading, Wishes, read
+from skg.reading.read import Reading, ReadOptions, read
 
 RECTANGLE = '<rect width="9" height="9"/>'
 
@@ -131,7 +131,7 @@ def test_a_rule_that_asks_in_too_many_ways_is_not_understood() -> None:
 
 
 def svg_of(inner: str) -> Reading:
-    return read(page('<rect x="1" y="1" width="20" height="20"/>' + inner), "a.svg", Wishes())
+    return read(page('<rect x="1" y="1" width="20" height="20"/>' + inner), "a.svg", ReadOptions())
 
 
 @pytest.mark.parametrize(

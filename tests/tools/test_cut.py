@@ -31,7 +31,7 @@ from skg.board.feeding import feed, feed_routes, rest_of, without_numbers
 from skg.errors import UserError
 from skg.geometry.plane import XY
 from skg.job.machine import BoardOptions, Policy, Setup
-from skg.job.wanted import Wanted
+from skg.job.wanted import CutSettings
 from skg.messages.finding import Phrase
 
 #: A drawing.
@@ -289,10 +289,10 @@ def test_wrong_tapes_are_found() -> None:
     corners = [(0.0, 0.0), (20.0, 0.0), (20.0, 10.0), (8.0, 14.0)]
     edges = tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True))
     round_hole = Contour((Edge((13.0, 5.0), (13.0, 5.0), (10.0, 5.0), 2 * pi),), True)
-    contours = plan([Contour(edges, True), round_hole], [], Wanted(offset=0.1))
+    contours = plan([Contour(edges, True), round_hole], [], CutSettings(offset=0.1))
     job = make(contours, "part")
     assert not job.checked.faults and job.checked.off < LIMIT
-    wider = plan([Contour(edges, True), round_hole], [], Wanted(offset=0.105))
+    wider = plan([Contour(edges, True), round_hole], [], CutSettings(offset=0.105))
     assert {fault.contour for fault in check(job.tape, wider, True).faults} == {0, 1}
     # The slanted edge goes 9 µm too far up, the one after it comes back.
     slanted = re.search(rb"B(\d+)B(\d+)B\1GXL2", job.data)
@@ -343,8 +343,8 @@ def test_the_controllers_steps_count() -> None:
     for height, is_far in ((0.0, False), (3.7, True)):
         corners = [(0.0, 0.0), (20.0, height), (20.0, 10.0), (0.0, 10.0)]
         contour = Contour(tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)), True)
-        job = make(plan([contour], [(5.0, -3.0)], Wanted(offset=0.1)), "part")
-        found = check(job.tape, plan([contour], [(5.0, -3.0)], Wanted(offset=0.102)), True)
+        job = make(plan([contour], [(5.0, -3.0)], CutSettings(offset=0.1)), "part")
+        found = check(job.tape, plan([contour], [(5.0, -3.0)], CutSettings(offset=0.102)), True)
         assert bool(found.faults) == is_far and (found.off > LIMIT) == is_far
         if is_far:
             assert LIMIT < found.faults[0].off < 0.0036
@@ -373,7 +373,7 @@ def test_each_pass_keeps_its_own_distance(corner: bytes, cut_short: bytes) -> No
 
     corners = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)]
     square = Contour(tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)), True)
-    contours = plan([square], [(5.0, -3.0)], Wanted(offset=0.1, passes=(0.5, 0.3, 0.0)))
+    contours = plan([square], [(5.0, -3.0)], CutSettings(offset=0.1, passes=(0.5, 0.3, 0.0)))
     job = make(contours, "part")
     assert not job.checked.faults and len(job.checked.cuts) == 2
     corner, cut_short = (blocks.replace(b" ", b"\r\n") for blocks in (corner, cut_short))
@@ -390,7 +390,7 @@ def test_a_circle_too_many_is_found() -> None:
     from skg.planning.plan import plan
 
     half = Contour((Edge((-5.0, 0.0), (5.0, 0.0)), Edge((5.0, 0.0), (-5.0, 0.0), (0.0, 0.0), pi)), True)
-    contours = plan([half], [], Wanted(offset=0.1))
+    contours = plan([half], [], CutSettings(offset=0.1))
     job = make(contours, "part")
     assert not job.checked.faults
     (arc,) = re.findall(rb"B\d+B\d+B\d+G[XY]NR4\r\n", job.data)
@@ -410,7 +410,7 @@ def test_a_part_in_a_round_opening_is_left_whole(inner: XY, radius: float, is_fr
     def circle(x: float, y: float, r: float) -> Contour:
         return Contour((Edge((x + r, y), (x + r, y), (x, y), 2 * pi),), True)
 
-    contours = plan([circle(0, 0, 10), circle(0, 0, 20), circle(*inner, radius)], [], Wanted(offset=0.1))
+    contours = plan([circle(0, 0, 10), circle(0, 0, 20), circle(*inner, radius)], [], CutSettings(offset=0.1))
     (opening,) = (way for way in contours if way.is_opening and not way.number)
     lead = LineString([opening.start, opening.entry])
     assert (opening.start == (0.0, 0.0)) == is_from_centre
@@ -796,7 +796,7 @@ def test_a_small_round_opening_that_another_crosses(turn: float, offset: float) 
         start = x + r * cos(2 * pi * turn), y + r * sin(2 * pi * turn)
         return Contour((Edge(start, start, (x, y), 2 * pi),), True)
 
-    contours = plan([circle(0, 0, 10), circle(0, 0, 0.5), circle(0.5, 0, 0.2)], [], Wanted(offset=offset))
+    contours = plan([circle(0, 0, 10), circle(0, 0, 0.5), circle(0.5, 0, 0.2)], [], CutSettings(offset=offset))
     (opening,) = (planned for planned in contours if planned.number == 1)
     assert opening.start != (0.0, 0.0)
     assert not make(contours, "part").checked.faults
@@ -942,7 +942,7 @@ def test_contours_with_passes_of_their_own(one: tuple[float, ...], other: tuple[
         corners = [(x, 0.0), (x + side, 0.0), (x + side, side), (x, side)]
         return Contour(tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)), True)
 
-    wanted = [Wanted(offset=0.1, passes=one, tab=tab), Wanted(offset=0.1, passes=other)]
+    wanted = [CutSettings(offset=0.1, passes=one, tab=tab), CutSettings(offset=0.1, passes=other)]
     contours = plan([square(0, 20), square(40, 10)], [], wanted)
     made = make(contours, "squares")
     assert not made.checked.faults and made.checked.off < LIMIT
@@ -971,7 +971,7 @@ def test_the_middles_of_straight_pieces_hide_nothing(monkeypatch: pytest.MonkeyP
         return Contour((Edge((x + 0.5, y), (x + 0.5, y), (x, y), 2 * pi),), True)
 
     outline = closed((0.0, 0.0), (40.0, 0.0), (40.0, 10.0), (20.0, 10.4), (0.0, 10.0))
-    contours = plan([outline, hole(20.0, 5.0)], [], Wanted(offset=0.1))
+    contours = plan([outline, hole(20.0, 5.0)], [], CutSettings(offset=0.1))
     made = make(contours, "part")
     bottom = re.search(rb"B(\d+)B0+B\1GXL1", made.data) or re.search(rb"B(\d+)B0+B\1GXL3", made.data)
     long = int(bottom[1])
@@ -984,11 +984,11 @@ def test_the_middles_of_straight_pieces_hide_nothing(monkeypatch: pytest.MonkeyP
     bump = straight(long // 2, 20, up) + b"\r\n" + straight(long - long // 2, 20, down)
     over = straight(long // 2, 400, up) + b"\r\n" + straight(long - long // 2, 400, down)
     tapes_of = [made.data, *(made.data.replace(bottom[0], other) for other in (bump, over))]
-    near = plan([outline, hole(20.0, 0.55)], [], Wanted(offset=0.1))
+    near = plan([outline, hole(20.0, 0.55)], [], CutSettings(offset=0.1))
     tilted = plan(
         [closed((0.0, 0.0), (40.0, 0.004), (40.0, 10.0), (20.0, 10.4), (0.0, 10.0)), hole(20.0, 5.0)],
         [],
-        Wanted(offset=0.1),
+        CutSettings(offset=0.1),
     )
     looked_at = []
     places = Pieces.nearest
@@ -1106,7 +1106,7 @@ def test_sheet(tmp_path: Path, size: float, columns: int, kinds: list[str]) -> N
         x, y = (size * (0.5 + k) / columns for k in divmod(at, columns))
         radius = size / columns / 4
         contours.append(Contour((Edge((x + radius, y), (x + radius, y), (x, y), 2 * pi),), True))
-    job = make(plan(contours, [], Wanted(offset=size / 1e4, lead=size / 20)), "part", Setup(wire=0.18, gap=0.01))
+    job = make(plan(contours, [], CutSettings(offset=size / 1e4, lead=size / 20)), "part", Setup(wire=0.18, gap=0.01))
     sheet = SetupSheet(job, Facts("part.dxf", "part.3b", "mm"))
     sheet.draw()
     sheet.save(str(tmp_path / "sheet.svg"), "svg")
@@ -1161,7 +1161,7 @@ def test_a_part_fills_its_sheet(size: tuple[float, float]) -> None:
     corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)]
     contour = Contour(tuple(map(Edge, corners, corners[1:] + corners[:1])), True)
     stock = Setup(offset=0.1, material="1.2379", thickness=20.0)
-    job = make(plan([contour], [], Wanted(offset=0.1, lead=0.5)), "part", stock)
+    job = make(plan([contour], [], CutSettings(offset=0.1, lead=0.5)), "part", stock)
     sheet = SetupSheet(job, Facts("part.dxf", "part.3b", "mm"))
     sheet.draw()
     texts = {text.get_text() for text in sheet.axes.texts}
@@ -1186,7 +1186,7 @@ def test_each_number_belongs_to_one_hole(width: float) -> None:
     contours = [Contour((Edge((x + 0.2, y), (x + 0.2, y), (x, y), 2 * pi),), True) for x, y in places]
     rest = [(0.0, 4.0), (width, 4.0), (width, 9.0), (0.0, 9.0)]
     contours.append(Contour(tuple(Edge(p, q) for p, q in zip(rest, rest[1:] + rest[:1], strict=True)), True))
-    job = make(plan(contours, [], Wanted(offset=0.1, side="inside")), "part")
+    job = make(plan(contours, [], CutSettings(offset=0.1, side="inside")), "part")
     long = "a" * 40 + "b" * 40 + ".3b"
     sheet = SetupSheet(job, Facts("part.dxf", long, "mm"))
     sheet.draw()

@@ -34,8 +34,8 @@ from skg.cutting.program import Program
 from skg.errors import UserError
 from skg.geometry.contour import Contour, Edge
 from skg.geometry.plane import XY, distance, minus, polar
-from skg.job.read_options import Wishes
-from skg.job.wanted import Wanted
+from skg.job.read_options import ReadOptions
+from skg.job.wanted import CutSettings
 from skg.messages.finding import Phrase
 from skg.pictures.dxf import _entities
 from skg.planning.plan import plan
@@ -70,7 +70,7 @@ def collect(drawing: Drawing, layers: tuple[str, ...] = (), **wishes: float) -> 
     text = io.StringIO()
     drawing.write(text)
     file = dxf_file.load(text.getvalue().encode())
-    return dxf_entities.collect(file, Wishes(layers, **wishes), file.units[1])
+    return dxf_entities.collect(file, ReadOptions(layers, **wishes), file.units[1])
 
 
 @cache
@@ -89,7 +89,7 @@ def contours_of(edges: list[Edge]) -> list[Contour]:
 
 def program_of(make: Callable[[], Drawing], offset: float = 0.0, **wishes: object) -> str:
     contours = contours_of(edges_of(make))
-    wanted = Wanted(offset=offset, side=str(wishes.get("side", "auto")), reverse=bool(wishes.get("reverse")))
+    wanted = CutSettings(offset=offset, side=str(wishes.get("side", "auto")), reverse=bool(wishes.get("reverse")))
     planned = plan(contours, content_of(make).starts, wanted)
     planned = [one.on_rung(has_fillets=bool(wishes.get("fillets", True))) for one in planned]
     return Program(planned, make.__name__).numbered()
@@ -481,9 +481,8 @@ def test_large_curves_are_cut_as_arcs() -> None:
     space.add_ellipse((0, 0), (400, 0), 0.75)
     edge = collect(drawing).edges[0]
     assert len(edge.nodes) < 200
-    assert (
-        apart(path_edges(Program(plan(contours_of([edge]), [], Wanted(side="on")), "ELLIPSE").numbered()), [edge]) < 0.3
-    )
+    planned = plan(contours_of([edge]), [], CutSettings(side="on"))
+    assert apart(path_edges(Program(planned, "ELLIPSE").numbered()), [edge]) < 0.3
 
 
 def star(count: int) -> list[XY]:

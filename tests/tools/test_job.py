@@ -22,8 +22,8 @@ from skg.geometry.plane import XY
 from skg.job.file import decoded, dump, encoded, from_data, load, to_data
 from skg.job.job import KINDS, Chosen, Job, Price, TapeForm
 from skg.job.machine import INTO, ROMS, SMALL, BoardOptions, Policy, Setup
-from skg.job.read_options import OPEN, UNITS, Wishes
-from skg.job.wanted import CLEARANCE_ON, LEAD_SHAPES, SIDES, Partial, Wanted
+from skg.job.read_options import OPEN, UNITS, ReadOptions
+from skg.job.wanted import CLEARANCE_ON, LEAD_SHAPES, SIDES, CutSettings, Overrides
 from skg.messages.finding import Phrase
 from skg.pipeline.steps import choose, cut_drawing, open_drawing, plan_drawing, wanted_of, written
 from skg.tape.styles import STYLES
@@ -69,7 +69,7 @@ CHOSEN = st.builds(
     st.sampled_from(KINDS),
     PLACES,
     st.tuples(LENGTHS, LENGTHS),
-    st.builds(Partial, **CONTOUR),
+    st.builds(Overrides, **CONTOUR),
 )
 SETUPS = st.builds(
     Setup,
@@ -86,7 +86,7 @@ JOBS = st.builds(
     sha256=st.just("") | st.text("0123456789abcdef", min_size=64, max_size=64),
     box=maybe(st.tuples(*[st.floats(-1e5, 1e5)] * 4)),
     read=st.builds(
-        Wishes,
+        ReadOptions,
         layers=st.lists(NAMES, max_size=3).map(tuple),
         start_layer=NAMES,
         units=maybe(st.sampled_from(sorted(UNITS))),
@@ -101,8 +101,8 @@ JOBS = st.builds(
     price=st.builds(Price, st.lists(st.floats(0, 1e6), max_size=3).map(tuple), LENGTHS, LENGTHS, st.just("") | WORDS),
     tape=st.builds(TapeForm, st.sampled_from(sorted(STYLES)), st.booleans()),
     starts=st.lists(PLACES, max_size=3).map(tuple),
-    default=st.builds(Partial, **OFTEN),
-    layers=st.dictionaries(NAMES, st.builds(Partial, **LAYER), max_size=3).filter(
+    default=st.builds(Overrides, **OFTEN),
+    layers=st.dictionaries(NAMES, st.builds(Overrides, **LAYER), max_size=3).filter(
         lambda layers: len({name.lower() for name in layers}) == len(layers)
     ),
     contours=st.lists(CHOSEN, max_size=3, unique_by=lambda one: (one.layer, one.kind, one.place, one.size)).map(tuple),
@@ -217,15 +217,15 @@ def test_contour_beats_layer_beats_default() -> None:
     job = Job(
         "a.dxf",
         setup=Setup(wire=0.2, gap=0.01),
-        default=Partial(tab=1.0, lead=2.0),
-        layers={"Second": Partial(tab=2.0, offset=0.3), "first": Partial(tab=3.0)},
+        default=Overrides(tab=1.0, lead=2.0),
+        layers={"Second": Overrides(tab=2.0, offset=0.3), "first": Overrides(tab=3.0)},
     )
-    assert job.of(["0"]) == Wanted(offset=0.11, tab=1.0, lead=2.0)
+    assert job.of(["0"]) == CutSettings(offset=0.11, tab=1.0, lead=2.0)
     assert job.of(["FIRST"]).tab == 3.0 and job.of(["FIRST"]).offset == 0.11
     # (of two layers the one that comes first in the job)
-    assert job.of(["first", "second"]) == Wanted(offset=0.3, tab=2.0, lead=2.0)
-    chosen = Chosen("first", "outline", (0.0, 0.0), (1.0, 1.0), Partial(tab=0.0, cut=False))
-    assert job.of(["first"], chosen) == Wanted(cut=False, offset=0.11, lead=2.0)
+    assert job.of(["first", "second"]) == CutSettings(offset=0.3, tab=2.0, lead=2.0)
+    chosen = Chosen("first", "outline", (0.0, 0.0), (1.0, 1.0), Overrides(tab=0.0, cut=False))
+    assert job.of(["first"], chosen) == CutSettings(cut=False, offset=0.11, lead=2.0)
 
 
 def plate(folder: Path) -> Path:
@@ -293,7 +293,7 @@ def test_examples_are_there() -> None:
 def test_settings_of_contours(run: Run, tmp_path: Path) -> None:
     """One is left, one is cut first with an offset of its own, one has its start hole and entry: the report says so."""
     path = plate(tmp_path)
-    job = Job("part.dxf", setup=Setup(offset=0.1), layers={"plate": Partial(tab=1.5, passes=(0.05, 0.0))})
+    job = Job("part.dxf", setup=Setup(offset=0.1), layers={"plate": Overrides(tab=1.5, passes=(0.05, 0.0))})
     drawn = open_drawing(job, path.read_bytes())
     numbers = {tuple(drawn.known.boxes[at, :2].tolist()): at for at in range(4)}
     contours = (
@@ -532,7 +532,7 @@ def test_layers_of_a_job(run: Run, tmp_path: Path) -> None:
 
 def test_progress_and_wanted(tmp_path: Path) -> None:
     """The page gets the steps of a run and the settings of each contour."""
-    job = Job("part.dxf", setup=Setup(offset=0.1), layers={"holes": Partial(cut=False)})
+    job = Job("part.dxf", setup=Setup(offset=0.1), layers={"holes": Overrides(cut=False)})
     drawn = open_drawing(job, plate(tmp_path).read_bytes())
     assert [want.cut for want in wanted_of(job, drawn)].count(True) == 1
     steps: list[str] = []

@@ -14,7 +14,7 @@ from skg.geometry.contour import Contour, Edge
 from skg.geometry.plane import XY
 from skg.job.job import Chosen
 from skg.job.matching import Match
-from skg.job.wanted import Partial
+from skg.job.wanted import Overrides
 
 PICTURES = ROOT / "docs" / "pictures"
 #: Drawings of the project: one of CAD, plots with many small contours that look alike.
@@ -78,7 +78,7 @@ def test_edits(drawings: list[list[Contour]], edit: str, are_together: bool) -> 
 def find(before: list[Contour], after: list[Contour], numbers: list[int]) -> tuple[list[int | None], list[Match]]:
     """The numbers that contours have after a change, and what is known of them."""
     old, new = known(before), known(after)
-    matches = new.find([old.choose(number, Partial()) for number in numbers], old.box)
+    matches = new.find([old.choose(number, Overrides()) for number in numbers], old.box)
     return [match.number for match in matches.found], list(matches.found)
 
 
@@ -143,5 +143,5 @@ def test_a_drawing_saved_anew(tmp_path: Path) -> None:
             x += shift
             polygon([(x, y), (x + width, y), (x + width, y + height), (x, y + height)], page)
         found += map(known, drawn_in([saved(page, tmp_path)]))
-    matches = found[1].find([found[0].choose(at, Partial()) for at in range(4)], found[0].box)
+    matches = found[1].find([found[0].choose(at, Overrides()) for at in range(4)], found[0].box)
     assert [match.number for match in matches.found] == [3, 2, 1, 0] and matches.shift == (7.0, 0.0)

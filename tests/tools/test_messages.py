@@ -15,7 +15,7 @@ import pytest
 
 from skg.commands.cut import command
 from skg.job.file import _DEFAULT, _MACHINE, _READ, _TOP
-from skg.job.wanted import Partial
+from skg.job.wanted import Overrides
 from skg.messages.catalogue import LANGUAGES
 from skg.messages.finding import Finding, Phrase
 from skg.messages.render import Medium, Speech, _Wording, advice, line, text
@@ -123,7 +123,7 @@ def test_severities_are_of_known_codes() -> None:
 
 def test_settings_are_options_and_keys_of_job_files() -> None:
     options = {name for parameter in command.params for name in parameter.opts}
-    tables = {"read": _READ, "machine": _MACHINE, "default": vars(Partial())}
+    tables = {"read": _READ, "machine": _MACHINE, "default": vars(Overrides())}
     for name, (table, label) in SETTINGS.items():
         key = KEYS.get(name, name.replace("-", "_"))
         assert f"--{name}" in options

@@ -9,7 +9,7 @@ from test_reading import checked, left
 from skg.errors import UserError
 from skg.geometry.plane import XY
 from skg.messages.finding import Phrase
-from skg.reading.read import Reading, Wishes, read
+from skg.reading.read import Reading, ReadOptions, read
 
 PART = '<rect x="10" y="10" width="20" height="10"/>'
 WHERE = (10, 80, 30, 90)
@@ -375,7 +375,7 @@ def test_a_line_of_dashes_within_an_outline_is_left() -> None:
     reading = reading_of(page(PART + fold))
     assert boxes(reading) == [WHERE]
     assert left(reading) == {"reason-dashed": 1}
-    assert len(read(page(PART + fold), "a.svg", Wishes(open="all")).contours) == 2
+    assert len(read(page(PART + fold), "a.svg", ReadOptions(open="all")).contours) == 2
 
 
 def test_a_curve_that_is_drawn_both_ways_is_drawn_twice() -> None:

@@ -13,10 +13,10 @@ from shapely.geometry import Polygon
 from toolhelp import Run
 
 from skg.errors import UserError
-from skg.geometry.offset import wire_way
+from skg.geometry.offset import wire_path
 from skg.job.file import decoded, encoded
 from skg.job.job import Job
-from skg.job.wanted import Partial
+from skg.job.wanted import Overrides
 from skg.pipeline import pairing
 
 #: A profile with a corner of each kind.
@@ -76,7 +76,7 @@ def test_a_plate_is_the_dies(run: Run, tmp_path: Path) -> None:
     """A clearance of a layer: plate and its hole are cut with the die, the hole in the profile with the punch. Start
     holes go to whom they are for; a job says the same."""
     profile(tmp_path, plate=True)
-    job = Job("part.dxf", layers={"profile": Partial(clearance=0.03, clearance_on="die")}, starts=((20, 5), (-5, 10)))
+    job = Job("part.dxf", layers={"profile": Overrides(clearance=0.03, clearance_on="die")}, starts=((20, 5), (-5, 10)))
     assert decoded(encoded(job), "job") == job
     file = tmp_path / "part.job.toml"
     file.write_bytes(encoded(job) + b"[machine]\noffset = 0.1\n")
@@ -140,7 +140,7 @@ def test_a_size_that_is_not_whole_is_refused(run: Run, tmp_path: Path, member: s
 
 def test_another_size_is_refused(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A punch that is 5 µm off what it is to be: shapely has the size out of the drawing."""
-    monkeypatch.setattr(pairing, "wire_way", lambda contour, r: wire_way(contour, r + 0.005))
+    monkeypatch.setattr(pairing, "wire_path", lambda contour, r: wire_path(contour, r + 0.005))
     with pytest.raises(UserError) as failed:
         run("cut", profile(tmp_path), "-o", tmp_path / "tool.3b", "--offset", "0.1", "--clearance", "0.3")
     assert failed.value.finding.code == "off-the-file" and not list(tmp_path.glob("*.3b"))

@@ -7,7 +7,7 @@ from collections import Counter
 
 import pytest
 
-from skg.job.read_options import Wishes
+from skg.job.read_options import ReadOptions
 from skg.reading import fast_dxf
 from skg.reading.account import Content
 from skg.reading.dxf_entities import collect
@@ -55,7 +55,7 @@ VALUES = ["", "x", "nan", "1e400", " 1 ", "1_0", "0", "-1", "1.0", "3"]
 def read(records: list[list[Group]]) -> Content:
     record, *parts = map(Record, records)
     record.parts = parts
-    return collect(DxfFile(model=[record]), Wishes(), 1.0)
+    return collect(DxfFile(model=[record]), ReadOptions(), 1.0)
 
 
 def spoilt(records: list[list[Group]], rng: random.Random) -> list[list[Group]]:

@@ -28,7 +28,7 @@ from skg.messages.finding import Finding, Phrase
 from skg.messages.render import text
 from skg.messages.severity import Severity
 from skg.reading import dxf_file
-from skg.reading.read import Reading, Wishes, read
+from skg.reading.read import Reading, ReadOptions, read
 
 FORMATS = ("R2000", "R2010", "R2018")
 #: Those that a drawing without units may be in, as messages offer them.
@@ -85,9 +85,9 @@ def length(contours: list[Contour]) -> float:
     return sum(edge.length for contour in contours for edge in contour.edges)
 
 
-def checked(data: bytes, **wishes: object) -> Reading:
+def checked(data: bytes, **options: object) -> Reading:
     """A drawing that is read: every contour hangs together, a closed one closes to 0, and the sums agree."""
-    reading = read(data, "part.dxf", Wishes(units=wishes.pop("units", "mm"), **wishes))
+    reading = read(data, "part.dxf", ReadOptions(units=options.pop("units", "mm"), **options))
     for contour in reading.contours:
         edges = contour.edges
         assert all(one.end == other.start for one, other in pairwise(edges))
@@ -698,7 +698,7 @@ def test_units() -> None:
         Phrase("units-told"),
     )
     assert says(text(read(raw(*square(0, 0, 20)), "a.dxf").report.told), Phrase("units-not-told"))
-    assert read(raw(*square(0, 0, 2)), "a.dxf", Wishes(units="foot")).report.size == pytest.approx((609.6, 609.6))
+    assert read(raw(*square(0, 0, 2)), "a.dxf", ReadOptions(units="foot")).report.size == pytest.approx((609.6, 609.6))
     with pytest.raises(
         UserError,
         match=pattern(Phrase("size-implausible", other=would_be((50.8, "inch"), (20, "cm"))), "--units"),
@@ -729,7 +729,7 @@ def test_units() -> None:
         with pytest.raises(UserError, match=pattern("a.dxf: ", Phrase("size-implausible", units=UNITS), "--units")):
             read(raw(*square(0, 0, side)), "a.dxf")
     with pytest.raises(UserError, match=pattern(Phrase("size-too-far", units="m", most=50))):
-        read(raw(*square(0, 0, 9e4)), "a.dxf", Wishes(units="m"))
+        read(raw(*square(0, 0, 9e4)), "a.dxf", ReadOptions(units="m"))
     # Where no units make it a usual part, those are offered that a tape has room for.
     house = raw(*square(0, 0, 2e4), header="9\n$INSUNITS\n70\n1\n")
     with pytest.raises(
@@ -742,15 +742,15 @@ def test_units() -> None:
 def test_parts_of_unknown_units_are_doubted() -> None:
     """Up to an inch, and above 1 m, with a word."""
 
-    def notes(side: float, wishes: Wishes | None = None) -> list[Finding]:
-        return read(raw(*square(0, 0, side)), "a.dxf", wishes).report.findings
+    def notes(side: float, options: ReadOptions | None = None) -> list[Finding]:
+        return read(raw(*square(0, 0, side)), "a.dxf", options).report.findings
 
     small = Phrase("size-small", width=8, height=8, other=would_be((203.2, "inch"), (80, "cm")))
     assert each_says(notes(8), (CARE, small, "--units"))
-    assert len(notes(3)) == 1 and notes(8, Wishes(units="mm")) == [] and notes(26) == []
+    assert len(notes(3)) == 1 and notes(8, ReadOptions(units="mm")) == [] and notes(26) == []
     large = Phrase("size-large", width=3500, height=3500, other=would_be((88.9, "mil")))
     assert each_says(notes(3500), (CARE, large, "--units"))
-    assert notes(3500, Wishes(units="mm")) == [] and notes(1000) == []
+    assert notes(3500, ReadOptions(units="mm")) == [] and notes(1000) == []
     with pytest.raises(
         UserError,
         match=pattern(Phrase("size-implausible", width=15000, height=15000, other=would_be((381, "mil"))), "--units"),
@@ -761,9 +761,9 @@ def test_parts_of_unknown_units_are_doubted() -> None:
 def test_told_units_of_an_odd_size_are_doubted() -> None:
     """A file that says inch and is in mm, or the other way round: read as it says, with a word."""
 
-    def notes(units: int, side: float, wishes: Wishes | None = None) -> list[Finding]:
+    def notes(units: int, side: float, options: ReadOptions | None = None) -> list[Finding]:
         data = raw(*square(0, 0, side), header=f"9\n$INSUNITS\n70\n{units}\n")
-        return read(data, "a.dxf", wishes).report.findings
+        return read(data, "a.dxf", options).report.findings
 
     for units, drawn, size, others in (
         (1, 94, 2387.6, would_be((94, "mm"), (940, "cm"))),
@@ -774,7 +774,7 @@ def test_told_units_of_an_odd_size_are_doubted() -> None:
         assert each_says(notes(units, drawn), (CARE, doubt, "--units"))
     for units, side in ((1, 30), (4, 40), (4, 2000), (5, 60)):
         assert notes(units, side) == []
-    assert notes(1, 94, Wishes(units="inch")) == []
+    assert notes(1, 94, ReadOptions(units="inch")) == []
 
 
 def test_paper_space_alone() -> None:
@@ -1076,8 +1076,8 @@ def test_dashes_that_are_left_count_and_what_is_open_by_choice_does_not() -> Non
     types = "0\nLTYPE\n2\nCENTER\n73\n4\n"
     axis = line(-50, 15, 50, 15).replace("8 0", "8 0 6 CENTER")
     data = raw(*square(0, 100, 30), axis, line(200, 0, 200, 99), layers=types + layers)
-    for wishes, cut in (({}, 219), ({"open": "leave"}, 120)):
-        said = [note for note in checked(data, **wishes).report.findings if says(note, CARE, "--open all")]
+    for options, cut in (({}, 219), ({"open": "leave"}, 120)):
+        said = [note for note in checked(data, **options).report.findings if says(note, CARE, "--open all")]
         assert each_says(said, Phrase("much-left", left=100, cut=cut))
 
 
@@ -1087,10 +1087,10 @@ def test_a_size_above_two_metres_is_said(side: float, is_said: bool, told: int) 
     """Once, and not when the units are asked for."""
     side /= 25.4 if told == 1 else 1
     data = raw(*square(0, 0, side), header=f"9\n$INSUNITS\n70\n{told}\n")
-    reading = read(data, "part.dxf", Wishes())
+    reading = read(data, "part.dxf", ReadOptions())
     said = [finding for finding in reading.report.findings if finding.severity is Severity.CARE]
     assert len(said) == is_said and all(advised([finding], "units") for finding in said)
-    asked = read(data, "part.dxf", Wishes(units="mm" if told == 4 else "inch"))
+    asked = read(data, "part.dxf", ReadOptions(units="mm" if told == 4 else "inch"))
     assert not asked.report.findings
 
 
@@ -1155,7 +1155,7 @@ def test_damaged_files(data: st.DataObject) -> None:
             case 3:
                 drawing = drawing[: max(at, 1)]
     try:
-        reading = read(b"".join(drawing), "part.dxf", Wishes(units="mm"))
+        reading = read(b"".join(drawing), "part.dxf", ReadOptions(units="mm"))
     except UserError as error:
         assert str(error).startswith("part.dxf: ") and "\n" not in str(error)
     else:
@@ -1189,8 +1189,8 @@ def svg(content: str, size: str = 'width="200mm" height="100mm" viewBox="0 0 200
     return SVG.format(content=content, size=size).encode()
 
 
-def read_svg(content: str, **wishes: object) -> Reading:
-    return read(svg(content), "part.svg", Wishes(**wishes))
+def read_svg(content: str, **options: object) -> Reading:
+    return read(svg(content), "part.svg", ReadOptions(**options))
 
 
 def test_svg_shapes() -> None:
@@ -1226,12 +1226,12 @@ def test_svg_page_in_mm_without_a_view_box(program: str, pixels: int) -> None:
     """Its shapes are in pixels, which are those of the program that wrote it (an old Inkscape's page is so)."""
     side = 20 * pixels / 25.4
     content = f'<rect x="{side}" y="0" width="20mm" height="{side / 2}"/><rect x="50%" width="{side}" height="9"/>'
-    reading = read(svg(content, f'width="200mm" height="100mm" {program}'), "part.svg", Wishes())
+    reading = read(svg(content, f'width="200mm" height="100mm" {program}'), "part.svg", ReadOptions())
     report = reading.report
     assert report.size == pytest.approx((100, 10)) and report.low == pytest.approx((20, 90))
     assert report.units == "mm" and says(text(report.told), Phrase("units-told"))
     assert says(text(report.told), Phrase("px-inkscape")) == bool(program)
-    inches = read(svg(content, f'width="200mm" height="100mm" {program}'), "part.svg", Wishes(units="inch"))
+    inches = read(svg(content, f'width="200mm" height="100mm" {program}'), "part.svg", ReadOptions(units="inch"))
     assert inches.report.size == pytest.approx((2540, 254))
 
 
@@ -1360,11 +1360,11 @@ def test_told_tolerance_closes_the_gap() -> None:
     for shortest in (0.2, 1):
         data = raw(*drawn, *square(5, 5, shortest))
         with pytest.raises(UserError) as refused:
-            read(data, "part.dxf", Wishes(open="refuse"))
+            read(data, "part.dxf", ReadOptions(open="refuse"))
         report = read(data, "part.dxf").report.report()
         told[shortest] = {*advised([*report, refused.value.finding], "tolerance")} - {None}
     assert not told[0.2] and len(told[1]) == 1
-    closed = read(data, "part.dxf", Wishes(tolerance=float(*told[1]), open="refuse")).report
+    closed = read(data, "part.dxf", ReadOptions(tolerance=float(*told[1]), open="refuse")).report
     assert (closed.closed, closed.open, closed.layers[0].cut) == (2, 0, 8)
 
 

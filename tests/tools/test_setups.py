@@ -15,7 +15,7 @@ from skg.errors import UserError
 from skg.job import file as job_files
 from skg.job.job import Job, TapeForm
 from skg.job.setups import Setups
-from skg.job.wanted import Wanted
+from skg.job.wanted import CutSettings
 
 SETUP = """[machine]
 wire = 0.2
@@ -136,7 +136,7 @@ def test_the_form_of_the_tape(run: Run, tmp_path: Path) -> None:
 def test_a_setting_that_is_not_given_is_the_jobs_default() -> None:
     """Options that nobody gives are left to the job: it has their defaults."""
     job = Job("a.dxf")
-    parts = (job.read, job.setup, job.board, job.policy, TapeForm(), Wanted())
+    parts = (job.read, job.setup, job.board, job.policy, TapeForm(), CutSettings())
     usual = {name: value for part in parts for name, value in vars(part).items()}
     both = {
         one.name: one.default

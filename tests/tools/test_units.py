@@ -9,7 +9,7 @@ from test_budget import page
 from test_reading import line, raw
 
 from skg.messages.finding import Finding
-from skg.reading.read import Wishes, read
+from skg.reading.read import ReadOptions, read
 
 INCH, MM = "9\n$INSUNITS\n70\n1\n", "9\n$INSUNITS\n70\n4\n"
 
@@ -17,7 +17,7 @@ INCH, MM = "9\n$INSUNITS\n70\n1\n", "9\n$INSUNITS\n70\n4\n"
 def of_units(data: bytes, name: str = "a.dxf", **wishes: object) -> list[Finding]:
     """The findings about likely units."""
     codes = ("size-in-other-units", "size-in-dots", "page-in-dots")
-    return [finding for finding in read(data, name, Wishes(**wishes)).report.report() if finding.code in codes]
+    return [finding for finding in read(data, name, ReadOptions(**wishes)).report.report() if finding.code in codes]
 
 
 def panel(width: float, height: float, header: str) -> bytes:

@@ -11,11 +11,11 @@ from facthelp import pattern
 from skg.cutting.ladder import make
 from skg.errors import UserError
 from skg.geometry.contour import Contour, Edge
-from skg.job.wanted import Wanted
+from skg.job.wanted import CutSettings
 from skg.messages.finding import Phrase
 from skg.planning.plan import plan
 
-OFFSET = Wanted(offset=0.1)
+OFFSET = CutSettings(offset=0.1)
 
 
 def box(left: float, low: float, width: float, height: float) -> Contour:
@@ -29,7 +29,7 @@ def plate() -> list[Contour]:
     return [box(0, 0, 40, 20), box(4, 4, 8, 8), box(20, 4, 12, 12), box(24, 8, 4, 4)]
 
 
-def cut(contours: list[Contour], wanted: list[Wanted]) -> list[int]:
+def cut(contours: list[Contour], wanted: list[CutSettings]) -> list[int]:
     """The numbers of the contours in the order in which a checked tape cuts them."""
     return [planned.number for planned in make(plan(contours, [], wanted), "plate").contours]
 

@@ -15,7 +15,7 @@ from test_reading import checked, dxf_bytes, line, polygon, raw, square
 from skg.errors import UserError
 from skg.messages.finding import Phrase
 from skg.reading.dxf_record import NEEDED
-from skg.reading.read import Reading, Wishes, read
+from skg.reading.read import Reading, ReadOptions, read
 
 #: An entity of each kind that is cut, whole.
 WHOLE = {
@@ -93,7 +93,7 @@ def test_a_block_without_its_base_point(base: str) -> None:
 def result(data: bytes) -> object:
     """All that a tape is made of; None for a refusal."""
     try:
-        reading = read(data, "part.dxf", Wishes(units="mm"))
+        reading = read(data, "part.dxf", ReadOptions(units="mm"))
     except UserError:
         return None
     return reading.contours, reading.starts

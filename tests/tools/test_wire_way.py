@@ -19,7 +19,7 @@ from toolhelp import Run, in_time
 
 from skg.geometry.contour import Contour, Edge
 from skg.geometry.fitting import curve_edge
-from skg.geometry.offset import NoRoom, part_between, wire_way
+from skg.geometry.offset import NoRoom, part_between, wire_path
 from skg.geometry.plane import XY
 from skg.messages.finding import Phrase
 
@@ -464,15 +464,15 @@ def test_wire_way_by_itself() -> None:
         ends = zip(corners, corners[1:] + corners[:1], strict=True)
         return Contour(tuple(Edge(p, q) for p, q in ends), True)
 
-    inner = wire_way(ring(square[::-1]), 1.0)
+    inner = wire_path(ring(square[::-1]), 1.0)
     assert sorted(edge.start for edge in inner) == pytest.approx([(1, 1), (1, 3), (3, 1), (3, 3)])
-    outer = wire_way(ring(square), 1.0)
+    outer = wire_path(ring(square), 1.0)
     assert sum(edge.length for edge in outer) == pytest.approx(16 + 2 * pi)
     notch = [*square[:2], (4.0, 1.0), (2.0, 1.0), (2.0, 3.0), (4.0, 3.0), *square[2:]]
-    way = wire_way(ring(notch), 0.5)
+    way = wire_path(ring(notch), 0.5)
     assert sum(edge.length for edge in way) == pytest.approx(12 + 2 + 2 * 1.5 + 1 + 6 * pi / 4, abs=1e-6)
     with pytest.raises(NoRoom):
-        wire_way(ring(square[::-1]), 2.5)
+        wire_path(ring(square[::-1]), 2.5)
 
 
 def test_ways_without_any_length(run: Run, tmp_path: Path) -> None:
@@ -540,7 +540,7 @@ def test_beside_waves(seed: int) -> None:
     contour = wavy(seed)
     area = Polygon(contour.points())
     for r in (0.11, -0.11):
-        way = wire_way(contour, r)
+        way = wire_path(contour, r)
         path = LineString([place for edge in way for place in edge.points()])
         assert (
             max(abs(dist(edge.start, edge.centre) - dist(edge.end, edge.centre)) for edge in way if edge.centre) < 5e-4
@@ -561,7 +561,7 @@ def test_the_wire_passes_short_bows_in_a_row() -> None:
         up = 1 / (2 * tan(radians(bow) / 2))
         centre = (x + u) / 2 - up * (v - y), (y + v) / 2 + up * (u - x)
         edges.append(Edge((x, y), (u, v), centre, radians(bow)))
-    way = wire_way(Contour(tuple(edges), True), 0.1)
+    way = wire_path(Contour(tuple(edges), True), 0.1)
     cut = LineString([edge.at(k / 20) for edge in way for k in range(21)])
     wanted = Polygon([edge.at(k / 20) for edge in edges for k in range(20)]).buffer(0.1, quad_segs=200).exterior
     assert cut.hausdorff_distance(wanted) < LIMIT
@@ -607,9 +607,9 @@ def test_a_slot_is_no_corner(wide: float, deep: float, is_refused: bool, r: floa
     contour = Contour(tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)), True)
     if is_refused:
         with pytest.raises(NoRoom, match=NOT_THERE):
-            wire_way(contour, r)
+            wire_path(contour, r)
     else:
-        assert wire_way(contour, r)
+        assert wire_path(contour, r)
 
 
 @pytest.mark.parametrize(("turned", "is_refused"), [(1.0, False), (1.5, True)])
@@ -626,9 +626,9 @@ def test_the_round_bottom_of_a_notch_is_a_corner(turned: float, is_refused: bool
     contour = Contour(tuple(edges), True)
     if is_refused:
         with pytest.raises(NoRoom, match=NOT_THERE):
-            wire_way(contour, 1.0)
+            wire_path(contour, 1.0)
     else:
-        assert wire_way(contour, 1.0)
+        assert wire_path(contour, 1.0)
 
 
 #: A plate with a window, SVG; what its corners are drawn with, each from the corner back to it: {0} to {3}.

@@ -43,7 +43,7 @@ from skg.job.values import MOST_OFFSET
 from skg.job.wanted import CLEARANCE_ON, LEAD, LEAD_SHAPES, SIDES
 from skg.messages.finding import Finding, Phrase
 from skg.messages.render import Medium, Speech, data, line, speech
-from skg.reading.read import Wishes, layer_lines
+from skg.reading.read import ReadOptions, layer_lines
 from skg.tape.dialect import GcodeDialect
 from skg.tape.gcode import is_gcode
 from skg.tape.styles import STYLES, to_style
@@ -409,7 +409,7 @@ def _cut(
     else:
         job, path = _asked(context, file, kept, **options), file
     if list_layers:
-        layers, notes = layer_lines(read_bytes(path), path, Wishes(encoding=job.read.encoding))
+        layers, notes = layer_lines(read_bytes(path), path, ReadOptions(encoding=job.read.encoding))
         for layer in layers:
             show(layer)
         for note in notes:

@@ -34,12 +34,12 @@ def shape_options(function: Callable) -> Callable:
 def write_shape(name: str, shape: Gear | Cam, output: str, offset: float | None, tab: float, tape: str | None) -> None:
     """Write the program that cuts a shape; it is run and its tape compared with the exact curves before."""
     from skg.cutting.report import findings
-    from skg.job.wanted import Wanted
+    from skg.job.wanted import CutSettings
     from skg.messages.finding import Finding
     from skg.messages.render import line
 
     try:
-        result = shape.cut(name, Wanted(offset=offset or 0.0, tab=tab))
+        result = shape.cut(name, CutSettings(offset=offset or 0.0, tab=tab))
     except UserError as error:
         raise error.within(name) from None
     if any(planned.rung.wire and any(planned.passes) for planned in result.contours):

@@ -13,7 +13,7 @@ from skg.geometry.contour import Contour, Edge
 from skg.geometry.fitting import curve_edge
 from skg.geometry.plane import XY
 from skg.job.machine import UNASKED
-from skg.job.wanted import Wanted
+from skg.job.wanted import CutSettings
 from skg.messages.finding import Finding
 from skg.planning.plan import plan
 
@@ -107,7 +107,7 @@ class Cam:
                 edges.append(curve_edge(self.places, self.heading, parts, TOLERANCE))
         return [Contour(tuple(edges), True)]
 
-    def cut(self, name: str, wanted: Wanted) -> CutResult:
+    def cut(self, name: str, wanted: CutSettings) -> CutResult:
         """Make a tape of the cam."""
         return make(plan(self.contours(), [], wanted), name, policy=UNASKED)
 

@@ -17,7 +17,7 @@ from skg.geometry.contour import Contour, Edge
 from skg.geometry.fitting import curve_edge
 from skg.geometry.plane import XY, polar
 from skg.job.machine import UNASKED
-from skg.job.wanted import Wanted
+from skg.job.wanted import CutSettings
 from skg.messages.finding import Finding
 from skg.planning.plan import plan
 from skg.planning.planned import PlannedContour
@@ -83,7 +83,7 @@ class Gear:
         self._refuse()
         return [self._outline(), *([self._bore()] if self.bore else [])]
 
-    def cut(self, name: str, wanted: Wanted) -> CutResult:
+    def cut(self, name: str, wanted: CutSettings) -> CutResult:
         """Make a tape of the gear. The program has one tooth, and REP for the others; all of them with a tab, whose
         lead would be repeated, and where the board has no room for so long a tooth."""
         contours = plan(self.contours(), [], wanted)

@@ -132,7 +132,7 @@ def _straight_lead(planned: PlannedContour, _trouble: _Trouble) -> PlannedContou
     return None
 
 
-def _own_way(planned: PlannedContour, _trouble: _Trouble) -> PlannedContour | None:
+def _own_path(planned: PlannedContour, _trouble: _Trouble) -> PlannedContour | None:
     """The wire's own way, without R; `NoRoom` where there is none."""
     return planned.along_wire() if _may_be_traced(planned) else None
 
@@ -148,7 +148,7 @@ def _in_chords(planned: PlannedContour, trouble: _Trouble) -> PlannedContour | N
 
 #: The remedies, in the order in which they are tried: each returns the contour on another rung, or None where it does
 #: not help, or has been tried.
-_RUNGS = (_arcs_for_fillets, _straight_lead, _own_way, _in_chords)
+_RUNGS = (_arcs_for_fillets, _straight_lead, _own_path, _in_chords)
 
 
 class _Ladder:
@@ -314,7 +314,7 @@ def _is_into(trouble: _Trouble) -> bool:
 def _no_room(planned: PlannedContour) -> NoRoom | None:
     """Return why the wire has no way of its own around a contour; None where it has one."""
     try:
-        _own_way(planned, [])
+        _own_path(planned, [])
     except NoRoom as why:
         return why
     return None

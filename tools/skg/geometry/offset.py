@@ -1,7 +1,7 @@
-"""The way of the wire beside a closed contour where that has edges that the wire cannot follow.
+"""The path of the wire beside a closed contour where that has edges that the wire cannot follow.
 
 An inner arc with a smaller radius than R, a step shorter than R in a corner: the wire goes past them, from one edge
-that it can follow to the next. `wire_way` finds which these are from all that lies within R of the contour's edges, and
+that it can follow to the next. `wire_path` finds which these are from all that lies within R of the edges, and
 then works out their parallels and where these meet.
 """
 
@@ -139,7 +139,7 @@ def _tangent(start: XY, angle: float, end: XY, entity: int) -> Edge:
     return Edge(start, end, centre, sweep, entity=entity)
 
 
-def wire_way(contour: Contour, r: float) -> tuple[Edge, ...]:
+def wire_path(contour: Contour, r: float) -> tuple[Edge, ...]:
     """Return the way of the wire along a closed contour, in its direction, R (mm) to the right of it.
 
     Where it does not get everywhere but to corners, or nowhere at all, it raises `NoRoom`.
@@ -185,7 +185,7 @@ def widest(contour: Contour, r: float) -> float:
     for _ in range(_HALVINGS):
         tried = (fits + fails) / 2
         try:
-            wire_way(contour, tried if r > 0 else -tried)
+            wire_path(contour, tried if r > 0 else -tried)
             fits = tried
         except NoRoom:
             fails = tried

@@ -19,8 +19,8 @@ from skg.job import values
 from skg.job.job import KINDS, Chosen, Job, Price, TapeForm
 from skg.job.machine import INTO, ROMS, SMALL, BoardOptions, Policy, Setup
 from skg.job.placing import MIRRORS, Copies, Place
-from skg.job.read_options import OPEN, UNITS, Wishes
-from skg.job.wanted import CLEARANCE_ON, LEAD_SHAPES, SIDES, Partial
+from skg.job.read_options import OPEN, UNITS, ReadOptions
+from skg.job.wanted import CLEARANCE_ON, LEAD_SHAPES, SIDES, Overrides
 from skg.messages.finding import Finding
 from skg.tape.styles import STYLES
 
@@ -125,11 +125,11 @@ TABLES = {
 _LISTS = {"layer": _LAYER, "contour": _CONTOUR}
 #: What each table is made into: fields of a job.
 _PARTS: dict[str, dict[str, Callable[..., Any]]] = {
-    "read": {"read": partial(Wishes, open=None)},
+    "read": {"read": partial(ReadOptions, open=None)},
     "machine": {"setup": Setup, "board": BoardOptions, "policy": Policy},
     "place": {"place": Place},
     "copies": {"copies": Copies},
-    "default": {"default": Partial},
+    "default": {"default": Overrides},
     "tape": {"tape": TapeForm},
     "price": {"price": Price},
 }
@@ -254,19 +254,19 @@ def made(tables: Tables) -> dict[str, Any]:
     }
 
 
-def _layers(entries: list[tuple[dict[str, Any], str]], name: str) -> dict[str, Partial]:
-    layers: dict[str, Partial] = {}
+def _layers(entries: list[tuple[dict[str, Any], str]], name: str) -> dict[str, Overrides]:
+    layers: dict[str, Overrides] = {}
     for entry, where in entries:
         layer = _required(entry, ("name",), where)[0]
         if layer.lower() in map(str.lower, layers):
             raise UserError(Finding("layer-twice", layer=layer).within(where))
-        layers[layer] = Partial(**entry)
+        layers[layer] = Overrides(**entry)
     return layers
 
 
 def _chosen(table: dict[str, Any], where: str) -> Chosen:
     layer, kind, place, size = _required(table, ("layer", "kind", "at", "size"), where)
-    return Chosen(layer, kind, place, size, Partial(**table))
+    return Chosen(layer, kind, place, size, Overrides(**table))
 
 
 def _required(table: dict[str, Any], keys: tuple[str, ...], where: str) -> list[Any]:
@@ -280,7 +280,7 @@ def _required(table: dict[str, Any], keys: tuple[str, ...], where: str) -> list[
 def _refuse_twins(contours: tuple[Chosen, ...], name: str) -> None:
     seen: dict[Chosen, int] = {}
     for number, chosen in enumerate(contours, 1):
-        first = seen.setdefault(replace(chosen, partial=Partial()), number)
+        first = seen.setdefault(replace(chosen, overrides=Overrides()), number)
         if first != number:
             raise UserError(Finding("contour-twice", first=first).within(name, f"[[contour]] {number}"))
 
@@ -334,7 +334,7 @@ def _told(value: object) -> str:
 
 def to_data(job: Job) -> dict[str, Any]:
     """The job as plain data: what is not said is left out."""
-    tables = {table: _changed(job, table) for table in _PARTS} | {"default": job.default.said()}
+    tables = {table: _changed(job, table) for table in _PARTS} | {"default": job.default.set_fields()}
     return {
         "schema": SCHEMA,
         "drawing": job.drawing,
@@ -359,8 +359,8 @@ def _changed(job: Job, table: str) -> dict[str, Any]:
 
 def _lists(job: Job) -> dict[str, Any]:
     layers = [
-        {"name": name, **{key: _plain(value) for key, value in partial.said().items()}}
-        for name, partial in job.layers.items()
+        {"name": name, **{key: _plain(value) for key, value in overrides.set_fields().items()}}
+        for name, overrides in job.layers.items()
     ]
     contours = [
         {
@@ -368,7 +368,7 @@ def _lists(job: Job) -> dict[str, Any]:
             "kind": chosen.kind,
             "at": list(chosen.place),
             "size": list(chosen.size),
-            **{key: _plain(value) for key, value in chosen.partial.said().items()},
+            **{key: _plain(value) for key, value in chosen.overrides.set_fields().items()},
         }
         for chosen in job.contours
     ]

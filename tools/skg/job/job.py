@@ -10,8 +10,8 @@ from skg.errors import UserError
 from skg.geometry.plane import XY
 from skg.job.machine import USUAL_BOARD, USUAL_POLICY, USUAL_SETUP, BoardOptions, Policy, Setup
 from skg.job.placing import Copies, Place
-from skg.job.read_options import Wishes
-from skg.job.wanted import Partial, Wanted
+from skg.job.read_options import ReadOptions
+from skg.job.wanted import CutSettings, Overrides
 from skg.messages.finding import Finding, Phrase
 from skg.tape.styles import STYLES
 
@@ -55,7 +55,7 @@ class Chosen:
     kind: str
     place: XY
     size: XY
-    partial: Partial = Partial()
+    overrides: Overrides = Overrides()
 
     @property
     def name(self) -> Phrase:
@@ -67,7 +67,7 @@ class Chosen:
 
 @dataclass(frozen=True)
 class Job:
-    """Wishes for a drawing; all lengths in mm.
+    """Settings for a drawing; all lengths in mm.
 
     `drawing`: a file's name, `sha256` of its bytes, `box` around its contours; these are empty, or None, where nobody
     has read it. `place`, `copies`: where the part lies on the machine, how often; all places of a job
@@ -78,7 +78,7 @@ class Job:
     drawing: str
     sha256: str = ""
     box: Box | None = None
-    read: Wishes = Wishes(open=None)
+    read: ReadOptions = ReadOptions(open=None)
     setup: Setup = USUAL_SETUP
     board: BoardOptions = USUAL_BOARD
     policy: Policy = USUAL_POLICY
@@ -87,25 +87,25 @@ class Job:
     copies: Copies = Copies()
     price: Price = Price()
     starts: tuple[XY, ...] = ()
-    default: Partial = Partial()
-    layers: Mapping[str, Partial] = field(default_factory=dict)
+    default: Overrides = Overrides()
+    layers: Mapping[str, Overrides] = field(default_factory=dict)
     contours: tuple[Chosen, ...] = ()
 
-    def of(self, layers: Iterable[str], chosen: Chosen | None = None) -> Wanted:
-        """Wishes for a contour on some layers."""
-        wanted = self.default.over(Wanted(offset=self.setup.distance))
+    def of(self, layers: Iterable[str], chosen: Chosen | None = None) -> CutSettings:
+        """Settings for a contour on some layers."""
+        wanted = self.default.over(CutSettings(offset=self.setup.distance))
         on = {layer.lower() for layer in layers}
-        for name, partial in reversed(list(self.layers.items())):
+        for name, overrides in reversed(list(self.layers.items())):
             if name.lower() in on:
-                wanted = partial.over(wanted)
+                wanted = overrides.over(wanted)
         if not chosen:
             return wanted
-        partial = chosen.partial
+        overrides = chosen.overrides
         # (a contour by itself is what it is)
-        return partial.over(wanted if partial.tab is None else replace(wanted, slug_tab=partial.tab))
+        return overrides.over(wanted if overrides.tab is None else replace(wanted, slug_tab=overrides.tab))
 
     @property
     def is_beside(self) -> bool:
         """Tell whether the wire runs beside contours somewhere."""
-        every = (self.default, *self.layers.values(), *(chosen.partial for chosen in self.contours))
-        return bool(self.setup.distance) or any(partial.offset for partial in every)
+        every = (self.default, *self.layers.values(), *(chosen.overrides for chosen in self.contours))
+        return bool(self.setup.distance) or any(overrides.offset for overrides in every)

@@ -14,7 +14,7 @@ from skg.geometry.contour import Contour, Edge
 from skg.geometry.edge_arrays import boxes_of
 from skg.geometry.plane import XY, shifted
 from skg.job.job import Box, Chosen
-from skg.job.wanted import Partial
+from skg.job.wanted import Overrides
 
 #: A contour is no farther from where it was than this, mm, or than this part of its width and height; it is so many
 #: times as near as the next one.
@@ -142,11 +142,11 @@ class Known:
             return False
         return match.moved > max(_STILL, min(_DOUBTED, _DOUBTED_PART * float(self.sizes[match.number].sum())))
 
-    def choose(self, number: int, partial: Partial) -> Chosen:
+    def choose(self, number: int, overrides: Overrides) -> Chosen:
         """Describe a contour by the middle of its longest edge, or of another one that tells it from its neighbours."""
         best: tuple[float, Chosen] | None = None
         for edge in sorted(self.contours[number].edges, key=lambda edge: -edge.length)[:_TRIED]:
-            candidate = self._by(number, edge, partial)
+            candidate = self._by(number, edge, overrides)
             clear = _clear_of(self._costs([candidate], (0.0, 0.0))[0], number)
             if best is None or clear > best[0]:
                 best = clear, candidate
@@ -159,20 +159,20 @@ class Known:
         """Describe all contours, as `choose` does, with no settings."""
         numbers = range(len(self.contours))
         chosen = [
-            self._by(number, max(self.contours[number].edges, key=lambda edge: edge.length), Partial())
+            self._by(number, max(self.contours[number].edges, key=lambda edge: edge.length), Overrides())
             for number in numbers
         ]
         costs = self._costs(chosen, (0.0, 0.0))
         return [
-            chosen[number] if _clear_of(costs[number], number) >= _LEAST else self.choose(number, Partial())
+            chosen[number] if _clear_of(costs[number], number) >= _LEAST else self.choose(number, Overrides())
             for number in numbers
         ]
 
-    def _by(self, number: int, edge: Edge, partial: Partial) -> Chosen:
+    def _by(self, number: int, edge: Edge, overrides: Overrides) -> Chosen:
         """A contour by the middle of one of its edges."""
         x, y = (round(ordinate, _DECIMALS) + 0.0 for ordinate in edge.at(0.5))
         width, height = self._rounded[number]
-        return Chosen(self.contours[number].layers[0], str(self.kinds[number]), (x, y), (width, height), partial)
+        return Chosen(self.contours[number].layers[0], str(self.kinds[number]), (x, y), (width, height), overrides)
 
 
 def _clear_of(costs: Sequence[tuple[float, int]], number: int) -> float:

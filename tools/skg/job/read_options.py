@@ -23,7 +23,7 @@ START = "START"
 
 
 @dataclass(frozen=True)
-class Wishes:
+class ReadOptions:
     """Options for reading a drawing.
 
     `layers`: only these (none: all that are neither off nor frozen). `start_layer`: that of the start holes. `units`:

@@ -1,4 +1,4 @@
-"""Wishes for a contour: cut or not, the wire's side and offset, passes, tab, lead, start hole, entry, order."""
+"""Settings for a contour: cut or not, the wire's side and offset, passes, tab, lead, start hole, entry, order."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ LEAD = 3.0
 
 
 @dataclass(frozen=True)
-class Wanted:
+class CutSettings:
     """The way a contour is cut.
 
     `cut`: False leaves it, and it stays in the nesting. `offset`: the wire's distance from the contour, mm. `side`: one
@@ -60,8 +60,8 @@ class Wanted:
 
 
 @dataclass(frozen=True)
-class Partial:
-    """Some fields of a `Wanted`, set for all contours, those of a layer, or one; None: not set."""
+class Overrides:
+    """Some of the `CutSettings`, set for all contours, those of a layer, or one; None: not set."""
 
     cut: bool | None = None
     offset: float | None = None
@@ -81,10 +81,10 @@ class Partial:
     clearance: float | None = None
     clearance_on: str | None = None
 
-    def said(self) -> dict[str, Any]:
+    def set_fields(self) -> dict[str, Any]:
         """The fields that are set, by name."""
         return {name: value for name, value in vars(self).items() if value is not None}
 
-    def over(self, wanted: Wanted) -> Wanted:
-        """A `Wanted` with the fields that are set here replaced."""
-        return replace(wanted, **self.said())
+    def over(self, wanted: CutSettings) -> CutSettings:
+        """Settings with the fields that are set here replaced."""
+        return replace(wanted, **self.set_fields())

@@ -10,9 +10,9 @@ import shapely
 
 from skg.errors import UserError
 from skg.geometry.contour import Contour
-from skg.geometry.offset import NoRoom, wire_way
+from skg.geometry.offset import NoRoom, wire_path
 from skg.geometry.plane import XY
-from skg.job.wanted import Wanted
+from skg.job.wanted import CutSettings
 from skg.messages.finding import Finding, Phrase
 from skg.planning.nesting import Nesting
 
@@ -46,7 +46,7 @@ def file_name(name: str, ending: str) -> str:
     return name[:at] + ending + name[at:]
 
 
-def members(wanted: Sequence[Wanted], nesting: Nesting) -> tuple[str, ...]:
+def members(wanted: Sequence[CutSettings], nesting: Nesting) -> tuple[str, ...]:
     """The members of a drawing: a punch and its die, where a closed contour has a clearance; else "", the part. A
     clearance without such a contour is a `UserError`."""
     asked = [number for number, want in enumerate(wanted) if want.cut and want.clearance is not None]
@@ -57,8 +57,8 @@ def members(wanted: Sequence[Wanted], nesting: Nesting) -> tuple[str, ...]:
     return PUNCH, DIE
 
 
-def pair_wanted(wanted: Sequence[Wanted], nesting: Nesting, member: str) -> list[Wanted]:
-    """Wishes for the punch or for the die.
+def pair_wanted(wanted: Sequence[CutSettings], nesting: Nesting, member: str) -> list[CutSettings]:
+    """Settings for the punch or for the die.
 
     A contour with a clearance that lies in no other such contour is cut outside for the punch, inside for the die. What
     lies in it goes with the punch, all else with the die.
@@ -81,7 +81,7 @@ def pair_wanted(wanted: Sequence[Wanted], nesting: Nesting, member: str) -> list
     return result
 
 
-def sized(wanted: Sequence[Wanted], nesting: Nesting, member: str) -> dict[int, Contour]:
+def sized(wanted: Sequence[CutSettings], nesting: Nesting, member: str) -> dict[int, Contour]:
     """The contours, by their numbers, that one of both has in a size of its own: those with a clearance that is no
     smaller than the wire's distance, with which the wire would be on the other side of what is drawn. A contour that is
     not whole in that size is a `UserError`."""
@@ -93,7 +93,7 @@ def sized(wanted: Sequence[Wanted], nesting: Nesting, member: str) -> dict[int, 
             continue
         lost: XY | None
         try:
-            made = replace(contour, edges=wire_way(contour, size if contour.area > 0 else -size))
+            made = replace(contour, edges=wire_path(contour, size if contour.area > 0 else -size))
             lost = _lost(contour, made, abs(size))
         except NoRoom as why:
             lost = why.place
@@ -111,14 +111,14 @@ def _lost(drawn: Contour, made: Contour, size: float) -> XY | None:
     return places[int(far.argmax())] if far.max() > _BESIDE * size else None
 
 
-def growth(want: Wanted, member: str) -> float:
+def growth(want: CutSettings, member: str) -> float:
     """How much larger than drawn one of both is on each side, mm; smaller: negative."""
     if want.clearance_on != member:
         return 0.0
     return -(want.clearance or 0.0) if member == PUNCH else want.clearance or 0.0
 
 
-def pair_starts(starts: Sequence[XY], wanted: Sequence[Wanted], nesting: Nesting, member: str) -> list[XY]:
+def pair_starts(starts: Sequence[XY], wanted: Sequence[CutSettings], nesting: Nesting, member: str) -> list[XY]:
     """The start holes of one of both. Those in a contour of the pair are the die's, those in what lies in it the
     punch's; so are those beside it, but in openings of a plate that it lies in, and outside of this."""
     mates, _ = _mates(wanted, nesting)
@@ -136,21 +136,21 @@ def pair_starts(starts: Sequence[XY], wanted: Sequence[Wanted], nesting: Nesting
     return result
 
 
-def pair_findings(wanted: Sequence[Wanted], nesting: Nesting, member: str, report: list[Finding]) -> list[Finding]:
-    """The report on one of both: begun with what it is, without what is meant so. `wanted`: wishes for the part."""
+def pair_findings(wanted: Sequence[CutSettings], nesting: Nesting, member: str, report: list[Finding]) -> list[Finding]:
+    """The report on one of both: begun with what it is, without what is meant so. `wanted`: settings for the part."""
     mates, _ = _mates(wanted, nesting)
     sizes = dict.fromkeys(_size(wanted[number], member) for number in sorted(mates))
     first = Finding("pair-punch" if member == PUNCH else "pair-die", sizes=tuple(sizes))
     return [first, *(finding for finding in report if finding.code not in _MEANT[member])]
 
 
-def _size(want: Wanted, member: str) -> Phrase:
+def _size(want: CutSettings, member: str) -> Phrase:
     if want.clearance_on != member or not want.clearance:
         return Phrase("pair-to-size")
     return Phrase("pair-smaller" if member == PUNCH else "pair-larger", clearance=want.clearance)
 
 
-def _mates(wanted: Sequence[Wanted], nesting: Nesting) -> tuple[set[int], list[list[int]]]:
+def _mates(wanted: Sequence[CutSettings], nesting: Nesting) -> tuple[set[int], list[list[int]]]:
     """The contours that punch and die share, and the closed contours around each contour, by their numbers."""
     around = nesting.holding.around([contour.edges[0].at(0.5) for contour in nesting.contours])
     asked = {
@@ -161,8 +161,8 @@ def _mates(wanted: Sequence[Wanted], nesting: Nesting) -> tuple[set[int], list[l
     return {number for number in asked if not asked & set(around[number]) - {number}}, around
 
 
-def _mated(number: int, want: Wanted, nesting: Nesting, member: str) -> Wanted:
-    """Wishes for a contour that both share."""
+def _mated(number: int, want: CutSettings, nesting: Nesting, member: str) -> CutSettings:
+    """Settings for a contour that both share."""
     # (a smaller one brings the wire nearer; for the others there is a contour of that size)
     takes = want.clearance if want.clearance_on == member else None
     offset = want.offset - takes if takes and takes < want.offset else want.offset

@@ -15,7 +15,7 @@ from skg.geometry.edge_arrays import boxes_of
 from skg.geometry.placement import Placement
 from skg.geometry.plane import XY
 from skg.job.placing import ORIGINS, Copies, Place
-from skg.job.wanted import Wanted
+from skg.job.wanted import CutSettings
 from skg.messages.finding import Finding, Phrase
 from skg.planning.copies import Pattern
 from skg.planning.nesting import Nesting
@@ -69,7 +69,7 @@ def placed_nesting(nesting: Nesting, placement: Placement, pattern: Pattern | No
     return Nesting(contours, nesting.depths, around, beside)
 
 
-def placed_wanted(wanted: Wanted, is_closed: bool, placement: Placement) -> Wanted:
+def placed_wanted(wanted: CutSettings, is_closed: bool, placement: Placement) -> CutSettings:
     """Settings of a contour on the machine. In a mirror the wire is on the other side of an open line's direction."""
     if placement.is_nothing:
         return wanted

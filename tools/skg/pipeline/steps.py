@@ -28,9 +28,9 @@ from skg.geometry.plane import XY, shifted
 from skg.job.job import Chosen, Job
 from skg.job.matching import Known, Matches
 from skg.job.placing import Copies, Place
-from skg.job.read_options import Wishes
+from skg.job.read_options import ReadOptions
 from skg.job.values import LEAST_FIT
-from skg.job.wanted import Partial, Wanted
+from skg.job.wanted import CutSettings, Overrides
 from skg.messages.finding import Finding, Phrase
 from skg.pipeline import pairing, placing
 from skg.planning.copies import Pattern, refuse_near
@@ -86,7 +86,7 @@ class DrawnJob:
         return Nesting(contours, self.nesting.depths, self.nesting.around)
 
     def chosen(self, job: Job) -> dict[int, Chosen]:
-        """The job's wishes by the numbers of contours; places are where the drawing is now."""
+        """The job's settings by the numbers of contours; places are where the drawing is now."""
         return {
             match.number: _moved(chosen, match.shift)
             for chosen, match in zip(job.contours, self.matches.found, strict=True)
@@ -137,11 +137,11 @@ class DrawnJob:
 
 def _moved(chosen: Chosen, by: XY) -> Chosen:
     """A chosen contour with its start hole, its entry and its tabs elsewhere."""
-    settings = chosen.partial.said()
+    settings = chosen.overrides.set_fields()
     places: dict[str, Any] = {key: shifted(settings[key], by) for key in ("start", "entry") if key in settings}
     if isinstance(tabs := settings.get("tabs"), tuple):
         places["tabs"] = tuple(shifted(tab, by) for tab in tabs)
-    return replace(chosen, partial=replace(chosen.partial, **places))
+    return replace(chosen, overrides=replace(chosen.overrides, **places))
 
 
 @dataclass(frozen=True)
@@ -160,21 +160,21 @@ class CutDrawing:
 def open_drawing(job: Job, data: bytes, name: str = "") -> DrawnJob:
     """Read a job's drawing and find the contours that it has settings for. `name`: what messages call the drawing."""
     name = name or job.drawing
-    reading = read(data, name, wishes_of(job))
+    reading = read(data, name, read_options_of(job))
     nesting = Nesting.of(reading.contours, reading.others, reading.opened)
     known = Known(reading.contours, [nesting.kind(number) for number in range(len(reading.contours))])
     return DrawnJob(name, data, reading, nesting, known, known.find(job.contours, job.box))
 
 
-def wishes_of(job: Job) -> Wishes:
+def read_options_of(job: Job) -> ReadOptions:
     """Options for reading the drawing: open contours are refused by default where the wire runs beside contours, and
     curves that grow are fitted so much nearer."""
     fit = max(job.read.fit_tolerance / max(1.0, job.place.scale), LEAST_FIT)
     return replace(job.read, open=job.read.open or ("refuse" if job.is_beside else "cut"), fit_tolerance=fit)
 
 
-def wanted_of(job: Job, drawn: DrawnJob) -> list[Wanted]:
-    """Wishes for each contour; places are where the drawing is now."""
+def wanted_of(job: Job, drawn: DrawnJob) -> list[CutSettings]:
+    """Settings for each contour; places are where the drawing is now."""
     layers = {layers: job.of(layers) for layers in {contour.layers for contour in drawn.contours}}
     wanted = [layers[contour.layers] for contour in drawn.contours]
     for number, chosen in drawn.chosen(job).items():
@@ -190,8 +190,8 @@ def members_of(job: Job, drawn: DrawnJob) -> list[DrawnJob]:
     return [_member(member, wanted, drawn) for member in members] if any(members) else [drawn]
 
 
-def _member(member: str, wanted: list[Wanted], drawn: DrawnJob) -> DrawnJob:
-    """The drawing as one of a pair. `wanted`: wishes for the part."""
+def _member(member: str, wanted: list[CutSettings], drawn: DrawnJob) -> DrawnJob:
+    """The drawing as one of a pair. `wanted`: settings for the part."""
     try:
         with placing.told_as_drawn(Placement(), *drawn.source):
             sized = pairing.sized(wanted, drawn.nesting, member)
@@ -212,10 +212,10 @@ def plan_drawing(job: Job, drawn: DrawnJob) -> list[PlannedContour]:
 def plan_placed(
     job: Job,
     drawn: DrawnJob,
-    wanted: list[Wanted],
+    wanted: list[CutSettings],
     before: dict[int, tuple[Asked, PlannedContour]] | None = None,
 ) -> list[PlannedContour]:
-    """Plan contours on the machine; see `plan_nested`. `wanted`: wishes for each, with places of the drawing."""
+    """Plan contours on the machine; see `plan_nested`. `wanted`: settings for each, with places of the drawing."""
     with placing.told_as_drawn(Placement(), *drawn.source):
         placement, nesting = drawn.placement(job), drawn.placed(job)
     on_machine = [
@@ -264,12 +264,12 @@ def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> C
     with placing.told_as_drawn(placement, *drawn.source):
         pattern = drawn.pattern(job)
         result = make(contours, job.drawing, job.setup, job.board, job.policy, progress, pattern)
-    left = {number: UNWANTED for number, want in enumerate(wanted_of(job, drawn)) if not want.cut}
+    skipped = {number: UNWANTED for number, want in enumerate(wanted_of(job, drawn)) if not want.cut}
     if drawn.member:
         others = enumerate(wanted_of(job, replace(drawn, member="")))
-        left |= {number: pairing.OTHER for number, want in others if want.cut and number in left}
-    left |= {contour.number: _reason(contour) for contour in result.skipped}
-    account = drawn.reading.account(left) if left else drawn.reading.report
+        skipped |= {number: pairing.OTHER for number, want in others if want.cut and number in skipped}
+    skipped |= {contour.number: _reason(contour) for contour in result.skipped}
+    account = drawn.reading.account(skipped) if skipped else drawn.reading.report
     result = _beside_file(result, job, drawn, account, placement)
     cost = Cost.of(result, job.price)
     report = [*_findings(job, drawn, account, result, placement, pattern), *cost.findings()]
@@ -332,7 +332,7 @@ def _findings(
     if stock := max((want.passes[-1] for want in wanted if want.cut), default=0.0):
         report.append(Finding("last-pass-leaves", stock=stock))
     # (a contour with a tab of its own is what it is)
-    own = {number for number, chosen in drawn.chosen(job).items() if chosen.partial.tab is not None}
+    own = {number for number, chosen in drawn.chosen(job).items() if chosen.overrides.tab is not None}
     others = [want for number, want in enumerate(wanted) if want.cut and number not in own]
     for is_asked, frees in (
         (any(want.tab for want in others), "part"),
@@ -371,7 +371,7 @@ def written(job: Job, drawn: DrawnJob) -> Job:
     lost)."""
     chosen = drawn.chosen(job)
     contours = tuple(
-        contour if match.number is None else drawn.known.choose(match.number, chosen[match.number].partial)
+        contour if match.number is None else drawn.known.choose(match.number, chosen[match.number].overrides)
         for contour, match in zip(job.contours, drawn.matches.found, strict=True)
     )
     left, low, right, top = (round(bound, 6) + 0.0 for bound in drawn.known.box)
@@ -392,4 +392,4 @@ def written(job: Job, drawn: DrawnJob) -> Job:
 
 def choose(drawn: DrawnJob, number: int, **wanted: Any) -> Chosen:  # noqa: ANN401
     """Settings for a contour, by its number."""
-    return drawn.known.choose(number, Partial(**wanted))
+    return drawn.known.choose(number, Overrides(**wanted))

@@ -18,7 +18,7 @@ from skg.geometry.contour import Contour, Edge, part_of
 from skg.geometry.edge_arrays import rows_of
 from skg.geometry.holding import Holding
 from skg.geometry.plane import XY, distance
-from skg.job.wanted import Wanted
+from skg.job.wanted import CutSettings
 from skg.messages.finding import Finding
 from skg.planning.entries import (
     EntryAt,
@@ -50,14 +50,14 @@ _LEAST_ARC, _ROUND = 0.05, 0.998
 
 
 #: The settings of a contour, and its given start hole.
-Asked = tuple[Wanted, XY | None]
+Asked = tuple[CutSettings, XY | None]
 
 
 class _Choice:
     """A closed contour whose entry is chosen. `entry`: the one that is tried next, None when all were; `room`: that of
     the best one so far, which `made` has; `reach`: how far the start hole is to be from the contour."""
 
-    def __init__(self, made: PlannedContour, wanted: Wanted, is_outside: bool) -> None:
+    def __init__(self, made: PlannedContour, wanted: CutSettings, is_outside: bool) -> None:
         self.made = made
         self.wanted = wanted
         self.is_outside = is_outside
@@ -197,7 +197,7 @@ class _Planner:
             done[choice.made.number] = self._bridged(choice.planned(), choice.wanted, choice.is_right)
         return [done[number] for number in asked]
 
-    def _bridged(self, made: PlannedContour, wanted: Wanted, is_right: bool) -> PlannedContour:
+    def _bridged(self, made: PlannedContour, wanted: CutSettings, is_right: bool) -> PlannedContour:
         """The contour with all of its tabs: so far it has the one before its entry."""
         if made.tabs.each and _count(wanted.tabs) > 1:
             tabs = wanted.tabs if isinstance(wanted.tabs, int) else _first_at(wanted.tabs, made.entry)
@@ -228,7 +228,7 @@ class _Planner:
         u, v = contour.edges[0].start
         raise UserError(Finding(code, x=x, y=y, u=u, v=v, least=least, contour=made.number, place=made.start))
 
-    def _entered(self, made: PlannedContour, wanted: Wanted, is_right: bool) -> PlannedContour:
+    def _entered(self, made: PlannedContour, wanted: CutSettings, is_right: bool) -> PlannedContour:
         """Enter a contour from its start hole at the place that is asked for, or where it is nearest to the hole."""
         asked = _entry_of(made, wanted)
         entry = asked or nearest_entry(made.contour, made.start, made.widest)
@@ -443,7 +443,7 @@ def _first_at(places: Sequence[XY], entry: XY) -> list[XY]:
     return [first, *(place for place in places if place is not first)]
 
 
-def _entry_of(made: PlannedContour, wanted: Wanted) -> EntryAt | None:
+def _entry_of(made: PlannedContour, wanted: CutSettings) -> EntryAt | None:
     """The entry that is asked for: by its place, or by those of tabs."""
     if wanted.entry:
         return nearest_entry(made.contour, wanted.entry, wanted.widest, with_curves=True)
@@ -489,7 +489,7 @@ def _refusal(code: str, made: PlannedContour, **values: Any) -> UserError:  # no
     return UserError(Finding(code, u=u, v=v, contour=made.number, **values))
 
 
-def _refuse_tabs(made: PlannedContour, wanted: Wanted) -> None:
+def _refuse_tabs(made: PlannedContour, wanted: CutSettings) -> None:
     """Refuse cuts of a tab that leave more than the first pass or less than the last, and an entry beside places."""
     least, most = abs(made.passes[-1]), abs(made.passes[0])
     if abs(made.tabs.passes[-1]) < least - _NEAR or any(abs(r) > most + _NEAR for r in made.tabs.passes):
@@ -523,16 +523,18 @@ def _part_at(edge: Edge, place: XY) -> float:
     return 0.0 if distance(place, edge.start) < 1e-9 else part
 
 
-def plan(contours: Sequence[Contour], starts: Sequence[XY], wanted: Wanted | Sequence[Wanted]) -> list[PlannedContour]:
+def plan(
+    contours: Sequence[Contour], starts: Sequence[XY], wanted: CutSettings | Sequence[CutSettings]
+) -> list[PlannedContour]:
     """Plan contours that nobody has looked at; see `plan_nested`."""
-    each = [wanted] * len(contours) if isinstance(wanted, Wanted) else wanted
+    each = [wanted] * len(contours) if isinstance(wanted, CutSettings) else wanted
     return plan_nested(Nesting.of(contours), starts, each)
 
 
 def plan_nested(
     nesting: Nesting,
     starts: Sequence[XY],
-    wanted: Sequence[Wanted],
+    wanted: Sequence[CutSettings],
     before: dict[int, tuple[Asked, PlannedContour]] | None = None,
 ) -> list[PlannedContour]:
     """Return the contours in the order in which they are cut: inner ones first, and then the nearest.
@@ -561,7 +563,7 @@ def plan_nested(
     return ordered
 
 
-def _oriented(contour: Contour, wanted: Wanted, depth: int) -> tuple[Contour, float]:
+def _oriented(contour: Contour, wanted: CutSettings, depth: int) -> tuple[Contour, float]:
     """Return the contour in the direction in which it is cut, and the sign of R."""
     side = wanted.side
     if not contour.is_closed:
@@ -592,7 +594,7 @@ def _ordered(contours: list[PlannedContour]) -> list[PlannedContour]:
     return ordered
 
 
-def _as_wanted(contours: list[PlannedContour], wanted: Sequence[Wanted]) -> list[PlannedContour]:
+def _as_wanted(contours: list[PlannedContour], wanted: Sequence[CutSettings]) -> list[PlannedContour]:
     """Put the contours that have a wanted order to their places; the others keep theirs among themselves."""
     placed = {planned.number: order for planned in contours if (order := wanted[planned.number].order) is not None}
     if not placed:
@@ -621,7 +623,7 @@ def _refuse_outer_first(contours: list[PlannedContour], holding: Holding) -> Non
                 raise UserError(Finding("outer-first", contour=outer.number, place=outer.entry, **names))
 
 
-def _given_starts(nesting: Nesting, wanted: Sequence[Wanted], starts: list[XY]) -> dict[int, XY]:
+def _given_starts(nesting: Nesting, wanted: Sequence[CutSettings], starts: list[XY]) -> dict[int, XY]:
     """Assign each given start hole to a contour (by its number)."""
     holding, depths = nesting.holding, nesting.depths
     given = {number: want.start for number, want in enumerate(wanted) if want.cut and want.start is not None}

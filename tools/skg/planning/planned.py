@@ -14,7 +14,7 @@ import shapely
 
 from skg.geometry.chords import CUT, chords_of
 from skg.geometry.contour import Contour, Edge
-from skg.geometry.offset import SPIKE, NoRoom, has_spike, part_between, roomy_place, wire_way
+from skg.geometry.offset import SPIKE, NoRoom, has_spike, part_between, roomy_place, wire_path
 from skg.geometry.plane import XY, distance, minus, polar
 from skg.messages.finding import Phrase
 from skg.planning.loops import Trim
@@ -327,7 +327,7 @@ class PlannedContour:
 
     @cached_property
     def _wire_paths(self) -> tuple[tuple[Edge, ...], ...]:
-        return tuple(wire_way(self.contour, r) for r in self.offsets)
+        return tuple(wire_path(self.contour, r) for r in self.offsets)
 
     def in_chords(self) -> PlannedContour:
         """The same without an offset, cut along chords of its arcs and curves: a controller may end an arc too early or

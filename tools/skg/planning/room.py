@@ -8,7 +8,7 @@ from math import copysign
 from typing import NamedTuple
 
 from skg.geometry.contour import Contour
-from skg.geometry.offset import NoRoom, sharpest, uncut, widest, wire_way
+from skg.geometry.offset import NoRoom, sharpest, uncut, widest, wire_path
 from skg.geometry.plane import XY
 from skg.planning.planned import PlannedContour, Reason
 
@@ -36,7 +36,7 @@ def tightest(contours: Mapping[int, PlannedContour], none: Mapping[int, NoRoom])
 def _fits(contour: Contour, r: float) -> bool:
     """Tell whether the wire gets around a closed contour, R (mm) to the right of it."""
     with suppress(NoRoom):
-        return bool(wire_way(contour, r))
+        return bool(wire_path(contour, r))
     return False
 
 
@@ -67,7 +67,7 @@ def _sharp(contours: Sequence[PlannedContour]) -> list[Corner]:
     for number, (_, _, planned) in enumerate(sharp[:_MEASURED]):
         with suppress(NoRoom):
             wire = planned.rung.wire
-            path = wire.paths[-1] if wire else wire_way(planned.contour, planned.offset)
+            path = wire.paths[-1] if wire else wire_path(planned.contour, planned.offset)
             sharp[number] = Corner(*uncut(planned.contour, path, planned.offset), planned)
     return sharp
 

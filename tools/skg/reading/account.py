@@ -128,8 +128,8 @@ class Mend:
 @dataclass(frozen=True)
 class Repair:
     """Something that may be asked for to close outlines, see `skg.reading.repairs`. `places`: the ends that it is
-    about, mm; `asked`: what the wishes have of it, places in the file; `size`: the line that is put in, how much longer
-    or shorter an edge becomes at most, the length of what is left, mm."""
+    about, mm; `asked`: what the options have of it, places in the file; `size`: the line that is put in, how much
+    longer or shorter an edge becomes at most, the length of what is left, mm."""
 
     kind: str
     places: tuple[XY, XY]

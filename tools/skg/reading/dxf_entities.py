@@ -16,7 +16,7 @@ import shapely
 
 from skg.geometry.contour import Edge
 from skg.geometry.plane import XY
-from skg.job.read_options import Wishes
+from skg.job.read_options import ReadOptions
 from skg.messages.finding import Finding, Phrase
 from skg.reading import fast_dxf
 from skg.reading.account import NOTE, Content, Entity, Written, by_layer
@@ -67,10 +67,10 @@ class _Collector:
     """Turns records into edges. `placing` knows where the present block's records stand on the drawing; `view`: from
     the file's places to the drawing's, None where these are the same."""
 
-    def __init__(self, file: DxfFile, wishes: Wishes, factor: float, view: Matrix44 | None = None) -> None:
+    def __init__(self, file: DxfFile, options: ReadOptions, factor: float, view: Matrix44 | None = None) -> None:
         self.file = file
-        self.wishes = wishes
-        self.placing = Placing(factor, wishes.fit_tolerance)
+        self.options = options
+        self.placing = Placing(factor, options.fit_tolerance)
         self.placing.matrix = view
         self.content = Content()
         self.known: dict[int, DXFGraphic] = {}
@@ -96,7 +96,7 @@ class _Collector:
 
     def unwanted(self, layer: str) -> Phrase | None:
         """Return the reason why a layer's content is not cut."""
-        return self.wishes.unwanted(layer, self.file.states.get(layer.lower(), ""))
+        return self.options.unwanted(layer, self.file.states.get(layer.lower(), ""))
 
     def leaves(self) -> bool:
         """Tell whether an entity leaves the drawing's plane."""
@@ -132,12 +132,12 @@ class _Collector:
     def one(self, record: Record, layer: str, hidden: Phrase | None) -> None:
         """Add what is no block reference."""
         account = self.account(record, layer)
-        is_start = self.wishes.is_start(layer)
+        is_start = self.options.is_start(layer)
         account.reason = hidden or self.unwanted(layer) or (Phrase("reason-invisible") if record.whole(60) else None)
         if not account.reason and _is_note(record.kind, is_start):
             account.reason = NOTE
             self.note(record)
-        if self.wishes.is_by_layer(account.reason) and not is_start and not _is_note(record.kind, is_start):
+        if self.options.is_by_layer(account.reason) and not is_start and not _is_note(record.kind, is_start):
             self.see(record, account)
         if account.reason:
             return
@@ -399,7 +399,7 @@ def _standing(flat: _Collector) -> _Collector | None:
     if not flat.leaves():
         return None
     for plane in _STANDING:
-        seen = _Collector(flat.file, flat.wishes, flat.placing.factor, _slow_dxf().view(plane))
+        seen = _Collector(flat.file, flat.options, flat.placing.factor, _slow_dxf().view(plane))
         seen.collect(flat.file.model, "", None, ())
         if seen.content.edges and not seen.leaves():
             flat.file.notes.append(Finding("standing", first=plane[0], second=plane[1]))
@@ -407,14 +407,14 @@ def _standing(flat: _Collector) -> _Collector | None:
     return None
 
 
-def collect(file: DxfFile, wishes: Wishes, factor: float) -> Content:
+def collect(file: DxfFile, options: ReadOptions, factor: float) -> Content:
     """Return the entities of a drawing, and the edges of those of its model space that are wanted, in mm.
 
     `factor`: mm per drawing unit. A layer that the drawing does not have is a `UserError`.
     """
-    wishes.check_layers([*file.layers.values(), *(record.layer for record in file.model)])
+    options.check_layers([*file.layers.values(), *(record.layer for record in file.model)])
     check_entities(_shown(file))
-    collector = _Collector(file, wishes, factor)
+    collector = _Collector(file, options, factor)
     collector.collect(file.model, "", None, ())
     collector = _standing(collector) or collector
     collector.placing.matrix = None
@@ -428,7 +428,7 @@ def collect(file: DxfFile, wishes: Wishes, factor: float) -> Content:
             collector.account(record, record.layer).reason = Phrase("reason-paper-space")
     file.notes += by_layer("seen-with-width", collector.wide)
     whole = [
-        collector.content.entities[number] for number in _circles(collector.content, collector.whole, wishes.tolerance)
+        collector.content.entities[number] for number in _circles(collector.content, collector.whole, options.tolerance)
     ]
     file.notes += by_layer("seen-full-turn", whole)
     file.notes += by_layer("seen-through-points", collector.through)

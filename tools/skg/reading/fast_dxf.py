@@ -76,7 +76,7 @@ class Polyline(NamedTuple):
 def numbers(record: Record) -> list[float] | None:
     """A LINE's two places, a CIRCLE's or ARC's centre, radius and angles (degrees), an ELLIPSE's centre, axis, ratio
     and parameters: places with x, y and z. None if the record is not plain, an axis not one in the plane."""
-    numbers = _told(record)
+    numbers = _decoded(record)
     if numbers is None or tuple(numbers[0]) not in _FORMS[record.kind]:
         return None
     values = numbers[1]
@@ -90,7 +90,7 @@ def numbers(record: Record) -> list[float] | None:
 
 def polyline(record: Record) -> Polyline | None:
     """A POLYLINE or LWPOLYLINE; None if the record is not plain."""
-    numbers = _told(record)
+    numbers = _decoded(record)
     if numbers is None:
         return None
     codes, values = numbers
@@ -133,7 +133,7 @@ def _parts(record: Record) -> list[tuple[float, float, float]] | None:
     for part in record.parts:
         if part.kind == "SEQEND":
             continue
-        numbers = _told(part)
+        numbers = _decoded(part)
         if part.kind != "VERTEX" or numbers is None or tuple(numbers[0]) not in _VERTICES:
             return None
         values = dict(zip((code for code in numbers[0] if not isinstance(code, str)), numbers[1], strict=True))
@@ -143,7 +143,7 @@ def _parts(record: Record) -> list[tuple[float, float, float]] | None:
     return parts
 
 
-def _told(record: Record) -> tuple[list[int | str], list[float]] | None:
+def _decoded(record: Record) -> tuple[list[int | str], list[float]] | None:
     """Subclasses and codes of a record's numbers in their order, and the numbers; None if there is anything else."""
     codes: list[int | str] = []
     values: list[float] = []

@@ -1,6 +1,6 @@
 """Reading a drawing file: its contours in millimetres, and a report in which every entity is accounted for.
 
-    reading = read(data, "part.dxf", Wishes(units="inch"))
+    reading = read(data, "part.dxf", ReadOptions(units="inch"))
     for contour in reading.contours: ...        # Contour: edges (lines, arcs, curves), is_closed, layers
     print(*reading.report.report(), sep="\\n")
 
@@ -21,7 +21,7 @@ from skg.errors import UserError
 from skg.geometry.contour import Contour, Edge
 from skg.geometry.edge_arrays import boxes_of
 from skg.geometry.plane import XY, shifted
-from skg.job.read_options import OPEN, START, UNITS, Wishes
+from skg.job.read_options import OPEN, START, UNITS, ReadOptions
 from skg.messages.finding import Finding, Phrase
 from skg.messages.render import text
 
@@ -32,7 +32,7 @@ from skg.reading.account import ASKED, NOT_TOLD, NOTE, ODD_METRES, TOLD, Account
 from skg.reading.chain import merged
 from skg.reading.selection import Fates, Selection
 
-__all__ = ["OPEN", "UNITS", "Reading", "Wishes", "layer_lines", "read"]
+__all__ = ["OPEN", "UNITS", "ReadOptions", "Reading", "layer_lines", "read"]
 
 #: The larger side of a usual part, mm.
 USUAL = 3.0, 10_000.0
@@ -78,51 +78,51 @@ class Reading:
     written: list[Written]
     noted: Noted
 
-    def is_same(self, wishes: Wishes, others: Wishes) -> bool:
-        """Tell whether others than the wishes that it was read by give the same: what becomes of open lines does not
+    def is_same(self, options: ReadOptions, others: ReadOptions) -> bool:
+        """Tell whether options other than those that it was read by give the same: what becomes of open lines does not
         matter where there are none."""
-        is_about_open = not self.opened and "all" not in (wishes.open, others.open)
-        return wishes == (replace(others, open=wishes.open) if is_about_open else others)
+        is_about_open = not self.opened and "all" not in (options.open, others.open)
+        return options == (replace(others, open=options.open) if is_about_open else others)
 
     @cached_property
     def report(self) -> Account:
         """The report on all contours."""
         return self.account({})
 
-    def account(self, left: Mapping[int, Phrase]) -> Account:
-        """The report where some contours (by their numbers) are left, and why."""
-        report = self.fates.account(self.drawn, left, self.begun)
-        cut = [contour for number, contour in enumerate(self.contours) if number not in left]
+    def account(self, skipped: Mapping[int, Phrase]) -> Account:
+        """The report where some contours (by their numbers) are skipped, and why."""
+        report = self.fates.account(self.drawn, skipped, self.begun)
+        cut = [contour for number, contour in enumerate(self.contours) if number not in skipped]
         report.closed = sum(contour.is_closed for contour in cut)
         report.open = len(cut) - report.closed
         report.length = sum(edge.length for contour in cut for edge in contour.edges)
         return report
 
 
-def read(data: bytes, name: str, wishes: Wishes | None = None) -> Reading:
+def read(data: bytes, name: str, options: ReadOptions | None = None) -> Reading:
     """Read a drawing file's bytes; `name` is the file's name, for messages and for its ending.
 
     A drawing without anything to cut, or one that is refused, is a `UserError` that begins with the name.
     """
-    wishes = wishes or Wishes()
+    options = options or ReadOptions()
     try:
-        return _read(data, name, wishes)
+        return _read(data, name, options)
     except UserError as error:
         raise error.within(name) from None
 
 
-def _read(data: bytes, name: str, wishes: Wishes) -> Reading:
-    content, report = _content(data, name, wishes)
+def _read(data: bytes, name: str, options: ReadOptions) -> Reading:
+    content, report = _content(data, name, options)
     if not content.edges:
-        raise UserError(_nothing(content, wishes))
-    if wishes.start_layer != START and not content.starts:
-        report.findings.append(Finding("no-start-points", layer=wishes.start_layer))
-    selection = Selection(content, wishes, report)
+        raise UserError(_nothing(content, options))
+    if options.start_layer != START and not content.starts:
+        report.findings.append(Finding("no-start-points", layer=options.start_layer))
+    selection = Selection(content, options, report)
     contours = selection.contours()
     if contours and _is_in_odd_metres(contours, report):
         # (in mm more ends meet, and the small ones are counted so)
         width, height = (side / UNITS["m"] for side in report.size)
-        reading = _read(data, name, replace(wishes, units="mm"))
+        reading = _read(data, name, replace(options, units="mm"))
         reading.begun.units_from = ODD_METRES
         reading.begun.units_values = {"width": width, "height": height}
         return reading
@@ -184,10 +184,10 @@ def _near_origin(reading: Reading) -> Reading:
     return replace(reading, contours=contours, starts=starts, others=others, opened=opened, **seen)
 
 
-def layer_lines(data: bytes, name: str, wishes: Wishes) -> tuple[list[str], list[Finding]]:
+def layer_lines(data: bytes, name: str, options: ReadOptions) -> tuple[list[str], list[Finding]]:
     """List the entities of each layer of a drawing file, a line each; and what was guessed or mended to read it."""
     try:
-        content, report = _content(data, name, wishes)
+        content, report = _content(data, name, options)
     except UserError as error:
         raise error.within(name) from None
     kinds: dict[str, Counter[str]] = defaultdict(Counter)
@@ -204,22 +204,22 @@ def _is_svg(data: bytes, name: str) -> bool:
     return b"<svg" in begin or name.lower().endswith((".svg", ".svgz")) and _DXF.match(begin) is None
 
 
-def _content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
+def _content(data: bytes, name: str, options: ReadOptions) -> tuple[Content, Account]:
     """Return a file's content, and an account that has its units."""
     if _is_svg(data, name):
-        if wishes.encoding:
+        if options.encoding:
             raise UserError(Finding("encoding-for-dxf"))
-        return _svg_content(data, name, wishes)
-    file = dxf_file.load(data, wishes.encoding)
+        return _svg_content(data, name, options)
+    file = dxf_file.load(data, options.encoding)
     units = (*file.units, TOLD) if file.units else ("mm", 1.0, NOT_TOLD)
     more = Phrase("units-inches") if file.is_imperial and not file.units else None
-    if wishes.units:
-        units, more = (wishes.units, UNITS[wishes.units], ASKED), None
+    if options.units:
+        units, more = (options.units, UNITS[options.units], ASKED), None
     report = Account(name, units[0], units[2], units[1], more, findings=file.notes)
-    return dxf_entities.collect(file, wishes, units[1]), report
+    return dxf_entities.collect(file, options, units[1]), report
 
 
-def _svg_content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Account]:
+def _svg_content(data: bytes, name: str, options: ReadOptions) -> tuple[Content, Account]:
     """The same of an SVG file: its shapes are in pixels, its page may tell how large one is."""
     from skg.reading import svg_file, svg_shapes  # (slow to import, and no DXF drawing needs them)
 
@@ -227,17 +227,17 @@ def _svg_content(data: bytes, name: str, wishes: Wishes) -> tuple[Content, Accou
     declared, px = page.units, page.px
     more = None if declared and px == svg_file.PX else Phrase(page.guessed)
     units = (*declared, TOLD) if declared else ("px", px, NOT_TOLD)
-    if wishes.units:
+    if options.units:
         more = None
         # Without a page in mm or inches a pixel is one of the units asked for.
-        units = wishes.units, UNITS[wishes.units], ASKED
-        px = UNITS[wishes.units] * (px / declared[1] if declared else 1.0)
-    content = svg_shapes.collect(page, px, wishes)
-    dots = page.page.size if page.page and not declared and not wishes.units else None
+        units = options.units, UNITS[options.units], ASKED
+        px = UNITS[options.units] * (px / declared[1] if declared else 1.0)
+    content = svg_shapes.collect(page, px, options)
+    dots = page.page.size if page.page and not declared and not options.units else None
     return content, Account(name, units[0], units[2], units[1], more, findings=list(content.notes), page=dots)
 
 
-def _nothing(content: Content, wishes: Wishes) -> Finding:
+def _nothing(content: Content, options: ReadOptions) -> Finding:
     """Explain why there is nothing to cut."""
     reasons = Counter((entity.kind, entity.reason) for entity in content.entities)
     summary = tuple(
@@ -245,12 +245,12 @@ def _nothing(content: Content, wishes: Wishes) -> Finding:
         for (kind, reason), count in reasons.most_common(5)
     )
     advice = None
-    unseen = sorted({entity.layer for entity in content.entities if wishes.is_hidden(entity.reason)})
-    if unseen and not wishes.layers:
+    unseen = sorted({entity.layer for entity in content.entities if options.is_hidden(entity.reason)})
+    if unseen and not options.layers:
         advice = Phrase("take-that-layer", layer=unseen[0])
     elif any(entity.kind in AREAS for entity in content.entities):
         advice = Phrase("draw-outlines")
-    where = Phrase("on-some-layers", layers=wishes.layers) if wishes.layers else None
+    where = Phrase("on-some-layers", layers=options.layers) if options.layers else None
     return Finding(
         "nothing-to-cut", where=where, summary=Phrase("in-sum", reasons=summary) if summary else None, advice=advice
     )

@@ -20,7 +20,7 @@ import shapely
 
 from skg.geometry.contour import Contour, Edge
 from skg.geometry.plane import XY, cross, distance, dot, minus, polar, shifted, turn
-from skg.job.read_options import MEET, Wishes
+from skg.job.read_options import MEET, ReadOptions
 from skg.messages.finding import Finding, Phrase
 from skg.reading.account import Mend, OpenEnd, Repair
 
@@ -48,14 +48,14 @@ class Repaired:
     by: XY = (0.0, 0.0)
 
 
-def repaired(edges: Sequence[Edge], wishes: Wishes) -> Repaired:
-    """The edges with corners made and bridges put in, where `wishes` has them."""
+def repaired(edges: Sequence[Edge], options: ReadOptions) -> Repaired:
+    """The edges with corners made and bridges put in, where `options` has them."""
     result = Repaired(list(edges))
-    if not (wishes.bridges or wishes.corners or wishes.strays):
+    if not (options.bridges or options.corners or options.strays):
         return result
     ends = _Ends(edges)
-    result.by = ends.moved([*wishes.bridges, *wishes.corners])
-    for kind, asked in (("corner", wishes.corners), ("bridge", wishes.bridges)):
+    result.by = ends.moved([*options.bridges, *options.corners])
+    for kind, asked in (("corner", options.corners), ("bridge", options.bridges)):
         for x, y, u, v in asked:
             places = shifted((x, y), result.by), shifted((u, v), result.by)
             pair = ends.pair(*places)

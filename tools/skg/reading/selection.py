@@ -14,7 +14,7 @@ from skg.geometry.arrays import Floats
 from skg.geometry.contour import Contour, Edge
 from skg.geometry.edge_arrays import boxes_of
 from skg.geometry.plane import XY, distance, shifted
-from skg.job.read_options import MEET, Wishes
+from skg.job.read_options import MEET, ReadOptions
 from skg.messages.finding import Finding, Phrase
 from skg.reading.account import (
     TWICE,
@@ -53,15 +53,15 @@ _GAP = 0.1
 
 
 class Selection:
-    """Chains the edges of a drawing and chooses which contours are cut, as `wishes` has it; what is left, and what is
+    """Chains the edges of a drawing and chooses which contours are cut, as `options` has it; what is left, and what is
     to be said of it, goes into `report`."""
 
-    def __init__(self, content: Content, wishes: Wishes, report: Account) -> None:
+    def __init__(self, content: Content, options: ReadOptions, report: Account) -> None:
         self.content = content
-        self.wishes = wishes
+        self.options = options
         self.report = report
         #: Ends and lines no further apart are one, mm; what is joined is wider apart.
-        self.near = min(wishes.tolerance, MEET)
+        self.near = min(options.tolerance, MEET)
         self.fates = Fates(content, self.near)
         self.styles = [(entity.layer, entity.dashes) for entity in content.entities]
         self.opened: list[Contour] = []
@@ -76,7 +76,7 @@ class Selection:
         rest = [contour for run, contour in enumerate(rest) if run not in on]
         for run in rest:
             self.fates.of_edges(run.edges, JUNCTION)
-        gaps = list(_gaps(rest, self.content.edges, self.wishes.tolerance))
+        gaps = list(_gaps(rest, self.content.edges, self.options.tolerance))
         self._say_around(rest, kept, bool(gaps))
         self.report.findings += gaps
         self.opened = [contour for contour in kept if not contour.is_closed] + rest
@@ -89,7 +89,7 @@ class Selection:
         if not around:
             return
         first, last = around[0].edges[0].start, around[-1].edges[-1].end
-        if self.wishes.open == "refuse":
+        if self.options.open == "refuse":
             raise UserError(Finding("outline-lost", place=first))
         if len(kept) > 1:
             is_single = len(around) == 1
@@ -100,7 +100,7 @@ class Selection:
     def others(self) -> tuple[list[Contour], list[Contour]]:
         """The closed contours of layers that are not cut, and the open lines of all layers, both drawn through: what is
         cut may lie in them."""
-        tolerance = self.wishes.tolerance
+        tolerance = self.options.tolerance
         chains, _ = without_overruns(chain(self.content.others, tolerance, self.styles), tolerance, self.styles)
         lines = [
             replace(contour, layers=self.fates.layers(contour))
@@ -113,12 +113,12 @@ class Selection:
         """The contours without the open ones where these are left; a `UserError` where there are any and they are
         refused. Their ends go into the report."""
         opened = [contour for contour in contours if not contour.is_closed]
-        self.report.open_ends = _open_ends(opened, self.content.edges, self.wishes.tolerance)
+        self.report.open_ends = _open_ends(opened, self.content.edges, self.options.tolerance)
         self.report.repairs = possible(self.opened, self.report.open_ends)
-        if opened and self.wishes.open == "refuse":
+        if opened and self.options.open == "refuse":
             place = min(self.report.open_ends, key=lambda end: end.gap).place
             raise UserError(Finding("open-refused", count=len(opened), gap=self.report.first_gap(), place=place))
-        if self.wishes.open != "leave":
+        if self.options.open != "leave":
             return contours
         for contour in opened:
             self.fates.of_edges(contour.edges, OPENED)
@@ -126,14 +126,14 @@ class Selection:
 
     def _chains(self) -> Chains:
         """All edges as contours; what is short, drawn twice or runs past a corner is accounted for."""
-        fates, report, tolerance = self.fates, self.report, self.wishes.tolerance
-        mended = repaired(self.content.edges, self.wishes)
+        fates, report, tolerance = self.fates, self.report, self.options.tolerance
+        mended = repaired(self.content.edges, self.options)
         fates.parts.update(bridge.entity for bridge in mended.bridges)
         fates.of_pieces(mended.pieces, PAST)
         report.mends += mended.mends
         report.findings += mended.findings
         chains = chain([*mended.edges, *mended.bridges], tolerance, self.styles)
-        if self.wishes.open != "all":
+        if self.options.open != "all":
             chains, overlaps = without_overlaps(chains, tolerance, self.near, self.styles)
             fates.parts.update(piece.entity for piece, _ in overlaps.pieces)
             fates.doubles += [((edge,), on) for edge, on in (*overlaps.pieces, *overlaps.whole)]
@@ -142,7 +142,7 @@ class Selection:
             fates.of_edges([cut.piece for cut in cuts if cut.is_whole], PAST)
             report.findings += _past(cuts, self.content)
             report.mends += [Mend("past", cut.corner, cut.piece.length) for cut in cuts]
-        if self.wishes.strays:
+        if self.options.strays:
             chains = self._without_strays(chains, mended.by)
         fates.of_edges(chains.short, SHORT)
         fates.parts.update(join.bridge.entity for join in chains.joins if join.bridge)
@@ -156,7 +156,7 @@ class Selection:
         the drawing was moved since."""
         opened = [contour for contour in chains.contours if not contour.is_closed]
         runs = opened + chains.rest
-        kept, found = without_strays(runs, [shifted(place, by) for place in self.wishes.strays])
+        kept, found = without_strays(runs, [shifted(place, by) for place in self.options.strays])
         for place, number in found:
             if number is None:
                 self.report.findings.append(lost("stray", place))
@@ -167,13 +167,13 @@ class Selection:
             self.report.findings.append(Finding("stray-left", place=place, length=length))
         if len(kept) == len(runs):
             return chains
-        return chained_again(chains, [runs[number] for number in kept], [], self.wishes.tolerance, self.styles)[0]
+        return chained_again(chains, [runs[number] for number in kept], [], self.options.tolerance, self.styles)[0]
 
     def _apart(self, chains: Chains) -> tuple[list[Contour], list[Contour]]:
         """The outlines, and what hangs together with others at junctions; what is repeated or is an axis is neither."""
         contours, every = chains.contours, chains.contours + chains.rest
         related = relations(every, self.near)
-        axes = _axes(contours, related, self.fates) if self.wishes.open != "all" and not self.wishes.layers else set()
+        axes = _axes(contours, related, self.fates) if self.options.open != "all" and not self.options.layers else set()
         for number, first in related.repeated.items():
             self.fates.doubles.append((every[number].edges, every[first].edges[0]))
         for number in sorted(axes):
@@ -195,20 +195,20 @@ class Selection:
 
     def _wanted(self, kept: list[Contour], rest: list[Contour]) -> tuple[list[Contour], list[Contour]]:
         """Select outlines and the rest by --open and --layer; open dashes are left."""
-        if self.wishes.open == "all":
+        if self.options.open == "all":
             return kept + rest, []
-        if self.wishes.open == "cut" and rest and not any(contour.is_closed for contour in kept):
+        if self.options.open == "cut" and rest and not any(contour.is_closed for contour in kept):
             self.report.findings.append(Finding("no-closed-as-drawn"))
             kept, rest = kept + rest, []
         dashed = {number for number, contour in enumerate(kept) if self.fates.is_dashed(contour)}
-        if self.wishes.layers or not any(
+        if self.options.layers or not any(
             contour.is_closed and number not in dashed for number, contour in enumerate(kept)
         ):
             return kept, rest
-        left = [number for number in sorted(dashed) if not kept[number].is_closed]
-        for number in left:
+        skipped = [number for number in sorted(dashed) if not kept[number].is_closed]
+        for number in skipped:
             self.fates.of_edges(kept[number].edges, DASHED)
-        return [contour for number, contour in enumerate(kept) if number not in set(left)], rest
+        return [contour for number, contour in enumerate(kept) if number not in set(skipped)], rest
 
 
 class Fates:
@@ -249,15 +249,15 @@ class Fates:
         """Tell whether a contour is drawn with dashes, all of it: an axis, or what lies behind."""
         return all(self.entities[edge.entity].dashes for edge in contour.edges)
 
-    def account(self, contours: list[Contour], left: Mapping[int, Phrase], begun: Account) -> Account:
-        """The report with the sums of the layers, where some contours (by their numbers) are left, and why; a sum that
-        does not agree is a `UserError`. `begun`: what else it has."""
+    def account(self, contours: list[Contour], skipped: Mapping[int, Phrase], begun: Account) -> Account:
+        """The report with the sums of the layers; a sum that does not agree is a `UserError`. `skipped`: numbers of
+        contours that are not cut, and why; `begun`: what else it has."""
         fates, report = copy(self), replace(begun, findings=[*begun.findings], overlaps=[*begun.overlaps], whole={})
         fates.gone = defaultdict(Counter, {number: Counter(gone) for number, gone in self.gone.items()})
         fates.lost = self.lost.copy()
-        for number, why in left.items():
+        for number, why in skipped.items():
             fates.of_edges(contours[number].edges, why)
-        fates._sum_up([contour for number, contour in enumerate(contours) if number not in left], report)
+        fates._sum_up([contour for number, contour in enumerate(contours) if number not in skipped], report)
         return report
 
     def _sum_up(self, contours: list[Contour], report: Account) -> None:
@@ -282,16 +282,16 @@ class Fates:
                 layer.cut += 1
                 continue
             reason = entity.reason or _all_of(lost)
-            left = replace(entity, reason=reason)
+            skipped = replace(entity, reason=reason)
             if cut[number]:
                 layer.part += 1
             else:
                 layer.skipped += 1
-            layer.why[reason][left.kind] += 1
+            layer.why[reason][skipped.kind] += 1
             if JUNCTION in gone:
-                rest.append(left)
-            elif left.is_odd:
-                odd.append(left)
+                rest.append(skipped)
+            elif skipped.is_odd:
+                odd.append(skipped)
         report.rest, report.not_understood = rest, odd
         report.layers = sorted(sums.values(), key=lambda layer: layer.layer)
         dashed = defaultdict(list)
@@ -306,9 +306,9 @@ class Fates:
         edges = [edge for contour in contours for edge in contour.edges]
         layers = {self.entities[edge.entity].layer for edge in edges}
         cut = sum(edge.length for edge in edges)
-        left = sum(length for layer, length in self.lost.items() if layer in layers)
-        if left > _MUCH * cut:
-            yield Finding("much-left", left=left, cut=cut)
+        lost = sum(length for layer, length in self.lost.items() if layer in layers)
+        if lost > _MUCH * cut:
+            yield Finding("much-left", left=lost, cut=cut)
 
     def _account_doubles(self, contours: list[Contour], cut: Counter[int], report: Account) -> None:
         """Say of what is drawn twice whether the other one is cut, and if not why."""

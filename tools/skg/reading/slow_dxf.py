@@ -59,7 +59,7 @@ _THIRD = "AcDbHelix"
 
 
 @contextmanager
-def _told() -> Iterator[None]:
+def _as_value_errors() -> Iterator[None]:
     """ezdxf's own errors as a `ValueError`: who asks knows of no ezdxf."""
     try:
         yield
@@ -70,7 +70,7 @@ def _told() -> Iterator[None]:
 def binary_groups(data: bytes) -> Iterator[Group]:
     """The groups of a binary file, as text; `ValueError` and `IndexError`."""
     try:
-        with _told():
+        with _as_value_errors():
             for tag in binary_tags_loader(data):
                 value = tag.value
                 yield tag.code, value.hex() if isinstance(value, bytes) else str(value)
@@ -85,7 +85,7 @@ def encoding(page: str) -> str:
 
 def entity(record: Record) -> Any:  # noqa: ANN401 (ezdxf has a class for each kind)
     """Return ezdxf's entity of a record, without a document; `ValueError` and whatever else ezdxf raises."""
-    with _told():
+    with _as_value_errors():
         return _entity(record)
 
 
@@ -103,7 +103,7 @@ def around(record: Record, off: float) -> Iterator[list[Vec3]]:
     does."""
     from ezdxf.path import from_hatch  # (slow to import)
 
-    with _told():
+    with _as_value_errors():
         for path in from_hatch(_entity(record)):
             check_vertices(len(path), record.kind)
             yield list(path.flattening(off, segments=4))
@@ -112,7 +112,7 @@ def around(record: Record, off: float) -> Iterator[list[Vec3]]:
 def placed(record: Record, base: tuple[float, float, float], outer: Matrix44 | None) -> list[Matrix44]:
     """From a block's content to the drawing, for each place of a reference's array. `base`: of the block; `outer`: from
     where the reference stands; raises as `entity` does."""
-    with _told():
+    with _as_value_errors():
         return [_matrix(single, base, outer) for single in _singles(_entity(record))]
 
 
@@ -140,7 +140,7 @@ def view(plane: str) -> Matrix44:
 
 def start(entity: Any) -> Vec3:  # noqa: ANN401
     """The place of a start hole: a POINT, or a CIRCLE around it; raises as `entity` does."""
-    with _told():
+    with _as_value_errors():
         return entity.dxf.location if entity.dxftype() == "POINT" else entity.ocs().to_wcs(entity.dxf.center)
 
 
@@ -151,7 +151,7 @@ def is_through_places(entity: Any) -> bool:  # noqa: ANN401
 
 def edges(entity: Any, placing: Placing, styles: dict[str, Record]) -> Iterator[Edge]:  # noqa: ANN401
     """One entity's edges, placed on the drawing; `styles`: of multilines. Raises as `entity` does, and `NotFlat`."""
-    with _told():
+    with _as_value_errors():
         yield from _edges(entity, placing, styles)
 
 

@@ -110,8 +110,8 @@ class View:
 
 
 @dataclass(frozen=True)
-class Drawn:
-    """An element that is drawn, or left for a reason."""
+class Shown:
+    """An element that is shown, or skipped for a reason."""
 
     element: ElementTree.Element
     view: View
@@ -179,7 +179,7 @@ class SvgFile:
                 return unit[1].lower().replace("in", "inch"), UNITS[unit[1].lower()]
         return None
 
-    def drawn(self) -> Iterator[Drawn]:
+    def shown(self) -> Iterator[Shown]:
         """All that is drawn, and what is left of it, in the order of the file; all that is in the file, if nothing is
         drawn."""
         budget.check_entities(self._count(self.root, {}))
@@ -191,7 +191,7 @@ class SvgFile:
             yield shape
         if is_empty:
             unshown = (element for element in self.root.iter() if tag_of(element) in (*SHAPES, "glyph"))
-            yield from (Drawn(element, view, Phrase("reason-shown-nowhere")) for element in unshown)
+            yield from (Shown(element, view, Phrase("reason-shown-nowhere")) for element in unshown)
 
     def _count(self, element: ElementTree.Element, known: dict[ElementTree.Element, int], depth: int = 0) -> int:
         """Count the elements that one shows, those that are used as often as they are; an element in itself once."""
@@ -214,7 +214,7 @@ class SvgFile:
         view: View,
         around: tuple[ElementTree.Element, ...],
         used: tuple[ElementTree.Element, ...],
-    ) -> Iterator[Drawn]:
+    ) -> Iterator[Shown]:
         if len(around) > _DEPTH:
             raise UserError(Finding("svg-too-deep", most=_DEPTH))
         shown = _switched(group) if tag_of(group) == "switch" else None
@@ -234,7 +234,7 @@ class SvgFile:
         view: View,
         around: tuple[ElementTree.Element, ...],
         used: tuple[ElementTree.Element, ...],
-    ) -> Iterator[Drawn]:
+    ) -> Iterator[Shown]:
         """Yield the shapes that an element shows; `around`: those that it stands in, `used`: what is being used, the
         last innermost."""
         style = self.sheet.style(element, (self.root, *used)[-1], view.style)
@@ -255,12 +255,12 @@ class SvgFile:
             else:
                 shown = self._children(element, view, (*around, element), used)
         except UNREADABLE as error:
-            yield Drawn(element, view, Phrase("reason-unread", detail=str(error) or type(error).__name__))
+            yield Shown(element, view, Phrase("reason-unread", detail=str(error) or type(error).__name__))
             return
         if name in NOTES:
-            yield Drawn(element, view, hidden or NOTES[name])
+            yield Shown(element, view, hidden or NOTES[name])
         elif name in SHAPES:
-            yield Drawn(element, view, hidden)
+            yield Shown(element, view, hidden)
         else:
             yield from shown
 
@@ -270,13 +270,13 @@ class SvgFile:
         view: View,
         around: tuple[ElementTree.Element, ...],
         used: tuple[ElementTree.Element, ...],
-    ) -> Iterable[Drawn]:
+    ) -> Iterable[Shown]:
         """Yield the shapes that a `use` shows."""
         target = self._target(element)
         if target is None or target in used:
             link = _link(element) or "#"
             why = Phrase("reason-link-lost" if target is None else "reason-link-itself", link=link)
-            return [Drawn(element, view, view.hidden or why)]
+            return [Shown(element, view, view.hidden or why)]
         name = tag_of(target)
         moved = replace(view, matrix=svgelements.Matrix.translate(*_corner(element, view)) * view.matrix)
         around, used = (*around, element), (*used, target)

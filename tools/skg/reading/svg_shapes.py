@@ -17,12 +17,12 @@ import svgelements
 
 from skg.geometry.contour import Edge
 from skg.geometry.plane import XY, cross, distance, minus
-from skg.job.read_options import Wishes
+from skg.job.read_options import ReadOptions
 from skg.messages.finding import Finding, Phrase
 from skg.reading.account import NOTE, Content, Entity, Written, by_layer
 from skg.reading.budget import check_vertices
 from skg.reading.curves import conic, is_number, spline_edges
-from skg.reading.svg_file import NOTES, NUMBER, SHAPES, UNREADABLE, Drawn, SvgFile, View, length_of, property_of, tag_of
+from skg.reading.svg_file import NOTES, NUMBER, SHAPES, UNREADABLE, Shown, SvgFile, View, length_of, property_of, tag_of
 
 #: Shapes that may have markers at their ends and corners.
 _MARKED = ("path", "line", "polyline", "polygon")
@@ -150,13 +150,13 @@ def _size_of(view: View) -> float:
     return _SIZE
 
 
-def collect(file: SvgFile, px: float, wishes: Wishes) -> Content:
+def collect(file: SvgFile, px: float, options: ReadOptions) -> Content:
     """Return the shapes of a drawing, and the edges of those that are wanted, in mm, y upwards from the page's lower
     edge. `px`: mm in one pixel."""
-    drawn = list(file.drawn())
-    wishes.check_layers(item.view.layer for item in drawn)
-    collector = _SvgCollector(file, px, wishes)
-    for item in drawn:
+    shown = list(file.shown())
+    options.check_layers(item.view.layer for item in shown)
+    collector = _SvgCollector(file, px, options)
+    for item in shown:
         collector.take(item)
     return collector.content()
 
@@ -164,11 +164,11 @@ def collect(file: SvgFile, px: float, wishes: Wishes) -> Content:
 class _SvgCollector:
     """Accounts for what is drawn, one by one, and keeps the edges of what is to be cut."""
 
-    def __init__(self, file: SvgFile, px: float, wishes: Wishes) -> None:
+    def __init__(self, file: SvgFile, px: float, options: ReadOptions) -> None:
         self.file = file
         self.px = px
-        self.wishes = wishes
-        self.shapes = _Shapes(file.height, px, wishes.fit_tolerance)
+        self.options = options
+        self.shapes = _Shapes(file.height, px, options.fit_tolerance)
         self.result = Content()
         # Shapes that the notes mention, and shapes without a line or an area, cut if there is nothing else.
         self.clipped: list[Entity] = []
@@ -177,12 +177,12 @@ class _SvgCollector:
         self.marked: list[Entity] = []
         self.unpainted: list[tuple[Entity, list[Edge]]] = []
 
-    def take(self, item: Drawn) -> None:
+    def take(self, item: Shown) -> None:
         """Account for one element that is drawn."""
         kind, layer = tag_of(item.element), item.view.layer
-        account = Entity(kind, layer, (0.0, 0.0), self.wishes.unwanted(layer) or item.reason)
+        account = Entity(kind, layer, (0.0, 0.0), self.options.unwanted(layer) or item.reason)
         self.result.entities.append(account)
-        if kind == "text" and not (item.view.hidden or self.wishes.unwanted(layer)):
+        if kind == "text" and not (item.view.hidden or self.options.unwanted(layer)):
             with suppress(*UNREADABLE):
                 self._write(item)
         if kind not in SHAPES or item.reason and item.reason.code == "reason-unread":
@@ -200,13 +200,13 @@ class _SvgCollector:
         if edges:
             account.place = edges[0].start
         is_seen = not item.reason and item.view.style.is_painted and not item.view.style.is_hidden
-        if self.wishes.is_by_layer(account.reason) and is_seen and not self.wishes.is_start(layer):
+        if self.options.is_by_layer(account.reason) and is_seen and not self.options.is_start(layer):
             self.result.others += edges
             account.dashes = "stroke-dasharray" if item.view.style.is_dashed else ""
         account.reason = account.reason or (Phrase("reason-invisible") if item.view.style.is_hidden else None)
         if account.reason:
             return
-        if self.wishes.is_start(layer):
+        if self.options.is_start(layer):
             self._start(account, outline if edges else [])
         elif not item.view.matrix.determinant:
             account.reason = Phrase("reason-no-area")
@@ -218,7 +218,7 @@ class _SvgCollector:
         else:
             self._cut(account, item.view, edges)
 
-    def _write(self, item: Drawn) -> None:
+    def _write(self, item: Shown) -> None:
         """Keep a text, for who looks at the drawing: each part of it that has a place of its own."""
         view = item.view
         lines: list[tuple[XY, list[str]]] = []

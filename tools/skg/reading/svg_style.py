@@ -197,7 +197,7 @@ class StyleSheet:
             declared |= declaration.important
         variables = outer.variables | {name: value for name, value in declared.items() if name.startswith("--")}
         properties = {name: value.strip() for name, value in element.items() if name in _PRESENTED} | declared
-        properties = {name: _told(value, variables) for name, value in properties.items()}
+        properties = {name: _resolved(value, variables) for name, value in properties.items()}
         properties = {name: value for name, value in properties.items() if value and value != "inherit"}
         visibility = properties.get("visibility")
         dashes = properties.get("stroke-dasharray")
@@ -227,7 +227,7 @@ class StyleSheet:
         )
 
 
-def _told(value: str, variables: dict[str, str]) -> str:
+def _resolved(value: str, variables: dict[str, str]) -> str:
     """A value with what its variables stand for; nothing where one of them is told nowhere, or by itself."""
     for _ in range(_DEPTH):
         reference = _VARIABLE.search(value)

@@ -17,7 +17,7 @@ from skg.job import file as job_files
 from skg.job.job import Chosen, Job
 from skg.job.matching import Match
 from skg.job.placing import Copies, Place
-from skg.job.wanted import Partial
+from skg.job.wanted import Overrides
 from skg.messages.finding import Finding
 from skg.messages.render import speech
 from skg.pipeline.pairing import named
@@ -28,9 +28,9 @@ from skg.pipeline.steps import (
     cut_all,
     open_drawing,
     plan_placed,
+    read_options_of,
     refuse_lost,
     wanted_of,
-    wishes_of,
     written,
 )
 from skg.planning.plan import Asked
@@ -99,7 +99,7 @@ class Desk:
         job = job_files.from_data(data, _PAGE)
         if self._job is None or job.drawing != self._job.drawing:
             raise UserError(Finding("page-not-open", drawing=job.drawing[:100]))
-        if self._drawn is None or not self._drawn.reading.is_same(wishes_of(self._job), wishes_of(job)):
+        if self._drawn is None or not self._drawn.reading.is_same(read_options_of(self._job), read_options_of(job)):
             return self._read(job)
         self._job = job
         self._drawn = replace(self._drawn, matches=self._drawn.known.find(job.contours, job.box))
@@ -190,7 +190,7 @@ class Desk:
         self._job = written(job, self._drawn)
         for chosen, match in zip(self._job.contours, self._drawn.matches.found, strict=True):
             if match.is_doubtful:
-                self._doubts[replace(chosen, partial=Partial())] = match.moved
+                self._doubts[replace(chosen, overrides=Overrides())] = match.moved
         self._drawn = replace(self._drawn, matches=self._drawn.known.find(self._job.contours, self._job.box))
         self._seen = self._drawn
         drawing = shown.drawing(self._drawn)
@@ -213,7 +213,7 @@ class Desk:
         """The contours of the drawing that those of the job are, as the page is told of it."""
         matches = []
         for index, (chosen, match) in enumerate(zip(self._job.contours, found, strict=True)):
-            doubt = self._doubts.get(replace(chosen, partial=Partial()))
+            doubt = self._doubts.get(replace(chosen, overrides=Overrides()))
             moved = round(doubt or match.moved, 4)
             matches.append({"chosen": index, "id": match.number, "moved": moved, "confirm": doubt is not None})
         return matches

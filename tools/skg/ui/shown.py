@@ -20,7 +20,7 @@ from skg.geometry.offset import NoRoom
 from skg.geometry.placement import Placement
 from skg.geometry.plane import XY
 from skg.job.job import Chosen
-from skg.job.wanted import Wanted
+from skg.job.wanted import CutSettings
 from skg.messages.catalogue import LANGUAGES, template
 from skg.messages.finding import Finding, Phrase
 from skg.messages.render import Medium, Speech, text
@@ -171,14 +171,14 @@ class Plans:
     """The plans of a drawing's contours as JSON: what has not changed since the last one is not written anew."""
 
     def __init__(self) -> None:
-        self._known: dict[int, tuple[PlannedContour | None, Wanted, dict | None, str]] = {}
+        self._known: dict[int, tuple[PlannedContour | None, CutSettings, dict | None, str]] = {}
         self._told: list[str] = []
         self._walls = walls.Walls()
 
     def written(
         self,
         contours: Sequence[PlannedContour],
-        wanted: Sequence[Wanted],
+        wanted: Sequence[CutSettings],
         errors: Sequence[UserError],
         placement: Placement,
         pattern: Pattern | None,
@@ -212,7 +212,7 @@ class Plans:
         return whole, part
 
     def _contour(
-        self, number: int, planned: PlannedContour | None, want: Wanted, why: dict[int, dict], placement: Placement
+        self, number: int, planned: PlannedContour | None, want: CutSettings, why: dict[int, dict], placement: Placement
     ) -> str:
         """A contour's plan without its place in the order, and without the brace before it."""
         wrong = why.get(number)
@@ -226,8 +226,8 @@ class Plans:
 
 
 @lru_cache
-def _values(want: Wanted, is_slug: bool) -> str:
-    """The wishes for a contour, those of layer and default included, as JSON; `is_slug`: its tab keeps a slug."""
+def _values(want: CutSettings, is_slug: bool) -> str:
+    """The settings for a contour, those of layer and default included, as JSON; `is_slug`: its tab keeps a slug."""
     names = ("cut", "side", "offset", "overlap", "lead", "lead_shape", "reverse", "order", "clearance_on")
     values: dict[str, Any] = {name: getattr(want, name) for name in names}
     values |= {name: list(getattr(want, name)) for name in ("passes", "tab_passes")}
@@ -256,7 +256,7 @@ def lying(placement: Placement, pattern: Pattern | None) -> dict[str, Any]:
 
 
 def plan_of(planned: PlannedContour, placement: Placement) -> dict[str, Any]:
-    """The plan of a contour, without the wishes for it, in the places of the drawing."""
+    """The plan of a contour, without the settings for it, in the places of the drawing."""
     back = placement.back
     # (R is to the right of the way, and its distance that of the drawing)
     times = (-1 if back.is_mirror else 1) * back.scale
