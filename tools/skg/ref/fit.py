@@ -19,7 +19,7 @@ FLAT_NEAR = Real("1e-4")
 
 #: Sums that are smaller than their terms by this have lost bits: the biarc's denominator where the tangents run back,
 #: the tangent of a circle where the nodes do.
-BACKWARDS = Real("1e-2")
+BACKWARDS = Real("2e-2")
 #: mm: what 32 bits leave open of how far a node is from a biarc, at 100 mm; 33 bits miss it by up to 4·10⁻⁸.
 PASSED_NEAR = Real("3e-7")
 #: Most nodes that TOL may pass over between two that it keeps.
