@@ -3,6 +3,7 @@
 The model is the reference's interpreter (docs/spec/language.md, sections 3 and 6), kept from line to line: the wire,
 the start hole, whether anything was moved, the open or closed route, variables, the places of DATA and GOSUB, the
 program. Errors end a line and not the session. Sessions are compared line by line: what is punched, what is printed.
+The other images have theirs: those that mill with statements of milling.md thrown in, the driving one without TOL.
 
 Behind a TAB a line has what the operator does while it works: `? 3`, an answer to INPUT (when none is left he breaks
 in); `^C 2`, ctrl-C while the second block is punched, which is finished first.
@@ -11,7 +12,7 @@ in); `^C 2`, ctrl-C while the second block is punched, which is finished first.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from random import Random
 
@@ -20,9 +21,12 @@ from romhelp import BLOCK, Board
 
 from skg.ref import real
 from skg.ref.cutter import Cutter
+from skg.ref.drift import DriftlessPunch
 from skg.ref.fault import Code, Fault
 from skg.ref.interpreter import Endless, Interpreter
-from skg.ref.near import watching
+from skg.ref.mill.interpreter import MillInterpreter
+from skg.ref.mill.iso import IsoPunch
+from skg.ref.near import Watch, watching
 from skg.ref.parser import LineFault, parse_line
 from skg.ref.route import Segment
 from skg.ref.statements import Goto
@@ -35,6 +39,9 @@ LIMIT = 200_000_000
 #: Cycles between two looks at the punch: less than a block's numbers take.
 SLICE = 4000
 CTRL_C = 3
+#: What switches a teletype's punch; a line that lists a block.
+DEVICE = re.compile(r"[\x11-\x14]")
+LISTED = re.compile(rf"{BLOCK.pattern}|N\d+[A-Z].*")
 #: Memory enough for what SYM and REP make of a route.
 RAM_KIB = 48
 #: A program's lines.
@@ -81,13 +88,24 @@ class Breakable(Cutter):
             raise Fault(Code.TAPE)
 
 
-class Model(Interpreter):
+@dataclass
+class DriftlessTape(DriftlessPunch):
+    """The same whose blocks start where the controller stands."""
+
+    last: int = 0
+
+
+@dataclass
+class MillTape(IsoPunch):
+    """A milling tape; nobody breaks in."""
+
+    last: int = 0
+
+
+class Prompt(Interpreter):
     """A machine at its prompt."""
 
-    tape: Tape
-
-    def _new_cutter(self) -> Cutter:
-        return Breakable(self.tape, self.path)
+    tape: Tape | DriftlessTape | MillTape
 
     def typed(self, line: str) -> tuple[bytes, list[str]]:
         """Carry out a line: what is punched and printed, a refused line's own text and mark left out."""
@@ -131,6 +149,29 @@ class Model(Interpreter):
             self._edit(parsed.number, parsed.statement)
 
 
+class Model(Prompt):
+    """One that cuts by wire."""
+
+    def _new_cutter(self) -> Cutter:
+        return Breakable(self.tape, self.path)
+
+
+class MillModel(Prompt, MillInterpreter):
+    """One that mills."""
+
+
+#: The image whose blocks wait for the machine's answer, and those that mill.
+WAITS = "skg-grbl"
+MILLS = ("skg-mill", WAITS)
+#: The model of each image, by the image's name.
+MODELS: Mapping[str, Callable[[Watch], Prompt]] = {
+    **dict.fromkeys(("skg", "skg-8251", "skg-tty", "skg-drive"), lambda watch: Model((), watch, Tape())),
+    "skg-nodrift": lambda watch: Model((), watch, DriftlessTape()),
+    "skg-mill": lambda watch: MillModel((), watch, MillTape()),
+    WAITS: lambda watch: MillModel((), watch, MillTape(line_end="\n")),
+}
+
+
 _PLACES = ["O", "(0,0)", "(10,0)", "(10,10)", "(0,10)", "(5,-5)", "(-5,5)", "P", "P1", "(20,0)"]
 _FAR = ["(25,200000)", "(200000,0)", "(-99999,99999)", "(99999,-99999)"]
 _CURVES = ["X", "Y:10", "-X:10", "-Y", "O:5", "C", "S", "(20,0):5", "-(O:5)"]
@@ -170,25 +211,36 @@ def statement(random: Random) -> str:
     return make()
 
 
-def session(seed: str, number: int) -> list[str]:
-    """The lines of a session, by its number."""
+#: What is thrown in where a machine mills.
+_MILLED = ["F 100", "F 100,50", "F 0", "F A", "Z -1", "Z -1,4", "Z 9", "M 3,100", "M 5", "M 2", "G 4,1", "G 1",
+           "HOLE (1,2)", "HOLE O,(3,3)", "HOLE P"]  # fmt: skip
+
+
+def session(seed: str, number: int, kind: str = "skg") -> list[str]:
+    """The lines of a session, by its number and the image."""
     random = Random(f"{seed} {number}")
     lines = []
     for _ in range(random.choice((3, 6, 10, 16))):
-        kind = random.random()
-        if kind < 0.45:
+        chance = random.random()
+        if chance < 0.45:
             lines.append(statement(random))
-        elif kind < 0.80:
+        elif chance < 0.80:
             number = random.choice(NUMBERS)
             lines.append(f"{number} {statement(random)}")
-        elif kind < 0.84:
+        elif chance < 0.84:
             lines.append(str(random.choice(NUMBERS)))
-        elif kind < 0.95:
+        elif chance < 0.95:
             lines.append(random.choice(("RUN", "RUN", "RUN", f"RUN {random.choice((*NUMBERS, 55))}")))
-        elif kind < 0.96:
+        elif chance < 0.96:
             lines.append("NEW")
         else:
             lines.append(f"GOTO {random.choice(NUMBERS)}")
+    if kind in MILLS:
+        thrown = [f"5 {random.choice(_MILLED)}", *random.choices(_MILLED, k=3)]
+        for line in (*thrown, *(f"{random.choice(('30', '40'))} {line}" for line in random.choices(_MILLED, k=2))):
+            lines.insert(random.randrange(len(lines) + 1), line)
+    if kind == "skg-drive":
+        lines = [line for line in lines if "TOL" not in line]
     return [line + operator(random, line) for line in lines if not line.startswith("INPUT")]
 
 
@@ -206,11 +258,11 @@ def operator(random: Random, line: str) -> str:
 Answer = tuple[bytes, list[str]]
 
 
-def by_model(lines: Sequence[str], bits: int | None = None) -> list[Answer]:
+def by_model(lines: Sequence[str], kind: str = "skg", bits: int | None = None) -> list[Answer]:
     """The model's answers, up to a line that is endless."""
     answers = []
     with watching() as watch, real.mp.workprec(bits or real.mp.prec):
-        model = Model((), watch, Tape())
+        model = MODELS[kind](watch)
         for line in lines:
             model.patience = PATIENCE
             try:
@@ -220,14 +272,18 @@ def by_model(lines: Sequence[str], bits: int | None = None) -> list[Answer]:
     return answers
 
 
-def worked(board: Board, typed: Typed) -> list[str]:
-    """Type a line and do what the operator does: the lines that are printed."""
+def worked(board: Board, typed: Typed, waits: bool) -> list[str]:
+    """Type a line, do what the operator does and the machine that each block waits for: the lines that are printed."""
     machine = board.machine
     start, before, end = machine.printed, len(board.tape), machine.cycles + LIMIT
+    heard = before
     machine.type(f"{typed.text}\r")
-    while (reason := machine.run(SLICE if typed.block else LIMIT)) != "prompt":
+    while (reason := machine.run(SLICE if typed.block or waits else LIMIT)) != "prompt":
         assert machine.cycles < end, f"{typed.text}: {reason}"
-        if reason == "input":
+        if waits and len(board.tape) > heard and board.tape.endswith(b"\n"):
+            heard = len(board.tape)
+            machine.tape("ok\r\n")
+        elif reason == "input":
             answer = next(typed.answers, None)
             machine.press(CTRL_C) if answer is None else machine.type(f"{answer}\r")
         elif typed.block and blocks(board.tape[before:].decode().split("\r\n")) == typed.block:
@@ -236,14 +292,14 @@ def worked(board: Board, typed: Typed) -> list[str]:
     return machine.paper_from(start).removesuffix(">").split("\r\n")[1:-1]
 
 
-def by_board(lines: Sequence[str]) -> list[Answer]:
+def by_board(lines: Sequence[str], kind: str = "skg") -> list[Answer]:
     """The firmware's answers."""
-    board = Board(RAM_KIB, limit=LIMIT)
+    board = Board(RAM_KIB, kind, limit=LIMIT)
     answers = []
     for line in lines:
         before = len(board.tape)
-        paper = worked(board, Typed.of(line))
-        printed = [row for row in paper if row not in ("", ">", "? ") and not BLOCK.fullmatch(row)]
+        paper = [DEVICE.sub("", row) for row in worked(board, Typed.of(line), kind == WAITS)]
+        printed = [row for row in paper if row not in ("", ">", "? ") and not LISTED.fullmatch(row)]
         if len(printed) > 1 and printed[-2].strip() == "^" or printed[:1] and printed[0].strip() == "^":
             printed = printed[-1:]
         answers.append((board.tape[before:], printed))
@@ -260,26 +316,26 @@ def same(ours: Sequence[Answer], theirs: Sequence[Answer]) -> bool:
     )
 
 
-def difference(lines: Sequence[str]) -> str:
+def difference(lines: Sequence[str], kind: str = "skg") -> str:
     """The first line at which board and model differ, and how; empty for none, or a close call."""
-    wanted = by_model(lines)
+    wanted = by_model(lines, kind)
     lines = lines[: len(wanted)]
-    answers = by_board(lines)
+    answers = by_board(lines, kind)
     for number, line in enumerate(lines):
         if not same(answers[number : number + 1], wanted[number : number + 1]):
-            if not same(by_model(lines, 33), wanted):
+            if not same(by_model(lines, kind, 33), wanted):
                 return ""
             return f"{line}: {answers[number]}, wanted {wanted[number]}"
     return ""
 
 
-def shrunk(lines: Sequence[str]) -> list[str]:
+def shrunk(lines: Sequence[str], kind: str = "skg") -> list[str]:
     """The session without the lines that its difference does not need."""
     small = list(lines)
     number = 0
     while number < len(small):
         fewer = small[:number] + small[number + 1 :]
-        if difference(fewer):
+        if difference(fewer, kind):
             small, number = fewer, 0
         else:
             number += 1

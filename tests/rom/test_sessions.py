@@ -1,6 +1,6 @@
 """Typed sessions (sessions.py), firmware against model: what a session keeps behind errors, edits, GOTO and RUN.
 
-800 sessions; another seed: SKG_SEED=text, more of them: SKG_SESSIONS=number.
+800 sessions, and 30 at each of the other images; another seed: SKG_SEED=text, more of them: SKG_SESSIONS=number.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ import os
 from collections import Counter
 
 import pytest
-from sessions import by_model, difference, session, shrunk
+from sessions import MODELS, by_model, difference, session, shrunk
 
 SEED = os.environ.get("SKG_SEED", "sessions")
 
@@ -18,13 +18,24 @@ SHARES = range(2)
 SESSIONS_A_SHARE = int(os.environ.get("SKG_SESSIONS", "800")) // len(SHARES)
 
 
+def check(number: int, kind: str = "skg") -> None:
+    """Board and model agree in a session."""
+    lines = session(SEED, number, kind)
+    if difference(lines, kind):
+        small = shrunk(lines, kind)
+        pytest.fail(f"session {number} of {SEED}: {small}\n{difference(small, kind)}")
+
+
 @pytest.mark.parametrize("share", SHARES)
 def test_sessions(share: int) -> None:
     for number in range(share * SESSIONS_A_SHARE, (share + 1) * SESSIONS_A_SHARE):
-        lines = session(SEED, number)
-        if difference(lines):
-            small = shrunk(lines)
-            pytest.fail(f"session {number} of {SEED}: {small}\n{difference(small)}")
+        check(number)
+
+
+@pytest.mark.parametrize("kind", [kind for kind in MODELS if kind != "skg"])
+def test_sessions_at_other_images(kind: str) -> None:
+    for number in range(SESSIONS_A_SHARE * 3 // 40):
+        check(number, kind)
 
 
 def test_sessions_hold_what_is_looked_for() -> None:
