@@ -20,22 +20,22 @@ EMU_PROGRAM_FLAGS += -DSKG80_BUILT_IN_ROM
 EMU_ROM := rom.o
 endif
 
-# Objects, plain and under the sanitizers; -MMD writes the headers of each into a file beside it, -MP lets one of them
-# be gone. The library's objects are those of the programs, so all are position-independent.
+# Objects, plain and under the sanitizers; -MMD writes the headers of each into a file beside it. The library's
+# objects are those of the programs, so all are position-independent.
 EMU_CC       = @mkdir -p $(@D); $(CC) $(EMU_CFLAGS) $(CFLAGS)
 EMU_OBJECTS  = $(addprefix $(1)/,$(2:.c=.o))
 
 build/emu/%.o: emu/%.c emu/emu.mk
-	$(EMU_CC) $(EMU_PROGRAM_FLAGS) -fPIC -MMD -MP -c -o $@ $<
+	$(EMU_CC) $(EMU_PROGRAM_FLAGS) -fPIC -MMD -c -o $@ $<
 
 build/asan/%.o: emu/%.c emu/emu.mk
-	$(EMU_CC) $(EMU_PROGRAM_FLAGS) $(EMU_ASAN) -MMD -MP -c -o $@ $<
+	$(EMU_CC) $(EMU_PROGRAM_FLAGS) $(EMU_ASAN) -MMD -c -o $@ $<
 
 build/emu/tests/%.o: tests/emu/%.c emu/emu.mk
-	$(EMU_CC) -MMD -MP -c -o $@ $<
+	$(EMU_CC) -MMD -c -o $@ $<
 
 build/asan/tests/%.o: tests/emu/%.c emu/emu.mk
-	$(EMU_CC) $(EMU_ASAN) -MMD -MP -c -o $@ $<
+	$(EMU_CC) $(EMU_ASAN) -MMD -c -o $@ $<
 
 build/emu/rom.o build/asan/rom.o: emu/rom.S $(SKG80_ROM)
 	$(EMU_CC) -DSKG80_ROM='"roms/skg.bin"' -DSKG80_SYM='"roms/skg.sym"' -c -o $@ $<
@@ -46,7 +46,7 @@ build/emu/i8080.o: EMU_CFLAGS += -O3
 build/emu/options.o build/asan/options.o: tools/pyproject.toml
 
 # A header that is gone, and that the lists of an older build name: what included it is made anew.
-emu/%.h: ;
+%.h: ;
 
 -include $(wildcard $(addsuffix *.d,build/emu/ build/emu/tests/ build/asan/ build/asan/tests/))
 
@@ -67,11 +67,11 @@ build/emu/%.rows: roms/%.bin build/emu/translate
 	@build/emu/translate $< examples/*.skg >$@.new && mv $@.new $@
 
 $(EMU_ROWS): build/emu/%.rows.o: build/emu/%.rows emu/i8080_translated.c
-	$(EMU_CC) -O1 -fPIC -I. -DNAME=translation_$(subst -,_,$*) -DROWS='"$<"' -MMD -MP -c -o $@ emu/i8080_translated.c
+	$(EMU_CC) -O1 -fPIC -I. -DNAME=translation_$(subst -,_,$*) -DROWS='"$<"' -MMD -c -o $@ emu/i8080_translated.c
 
 EMU_TRANSLATED := $(filter-out %/translations.o,$(call EMU_OBJECTS,build/emu,$(EMU_LIBRARY))) build/emu/with_translations.o $(EMU_ROWS)
 build/emu/with_translations.o: emu/translations.c emu/emu.mk
-	$(EMU_CC) -DWITH_TRANSLATIONS -fPIC -MMD -MP -c -o $@ $<
+	$(EMU_CC) -DWITH_TRANSLATIONS -fPIC -MMD -c -o $@ $<
 
 build/libskg80.so: $(EMU_TRANSLATED)
 	$(EMU_CC) -shared -o $@ $^
