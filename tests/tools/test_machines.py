@@ -321,6 +321,20 @@ def test_offset_in_the_control(run: Run, tmp_path: Path, name: str, lead: str) -
 
 
 @pytest.mark.wording
+def test_a_program_of_another_hand(run: Run, tmp_path: Path) -> None:
+    """Its number and head are its own: what GRBL knows is no matter; the first M60 of a head is no stop."""
+    lines = ["%", "O0001", "G90 G21", "G92 X0. Y0.", "M60", "G01 X1. Y0. F5", "M50", "M30", "%"]
+    part, plain = tmp_path / "part.nc", run("gcode", "--back", "-", "--machine", "wire-fanuc", stdin="\n".join(lines))
+    own = ["%", "O4711", *lines[2:5], "G01 X1. Y0. F5 (" + 70 * "x" + ")", *lines[6:]]
+    part.write_text("\n".join(own))
+    assert run("check", part, "--machine", "wire-fanuc").exit_code == 0
+    assert run("gcode", "--back", part, "--machine", "wire-fanuc").stdout == plain.stdout
+    part.write_text("\n".join(["%", "O4711", "G90", *own[3:]]))
+    assert run("check", part, "--machine", "wire-fanuc").exit_code == 0
+    done = run("check", part, "--machine", "grbl-wire")
+    assert done.exit_code == 1 and says(done.stdout, "%") and says(done.stdout, "O")
+
+
 def test_page(tmp_path: Path) -> None:
     for name in ("docs", "examples"):
         (tmp_path / name).symlink_to(ROOT / name)

@@ -10,6 +10,8 @@ from skg.tape.dialect import GcodeDialect, Lines
 from skg.tape.gcode_line import Findings, Misread, Modes
 
 _NUMBER = re.compile(r"N\s*\d+\s*", re.I)
+#: A program's own number, whatever it is.
+_PROGRAM = re.compile(r"O\d+")
 #: Lines of a stop, and of the end of a program.
 _STOP, _END = "M0", "M30"
 
@@ -50,6 +52,8 @@ def _plain(line: str) -> str:
 
 def _pattern(template: str) -> str:
     """The pattern of a line with fields in braces, which are numbers."""
+    if _PROGRAM.fullmatch(_plain(template)):
+        return _PROGRAM.pattern
     return re.sub(r"\\\{\w+\\\}", r"[-+\\d.]+", re.escape(_plain(template)))
 
 

@@ -62,6 +62,8 @@ class _Reader:
         self.home: Spot = (0, 0)
         # (a control without F words has its feed set by hand)
         self.fed, self.has_rapids = dialect is not None and not dialect.feed, False
+        # A machine whose programs begin with such a mark is none with GRBL.
+        self.is_marked = dialect is not None and any(map(_MARK.fullmatch, (*dialect.head, *dialect.foot)))
         # Gone to a place of the machine's own, nobody knows where in the plane.
         self.is_away = False
         # The origin of places after a G92 in mid-program; `position` goes on from the first one.
@@ -71,7 +73,7 @@ class _Reader:
         """Carry out one line."""
         self.findings.line += 1
         text = line.strip()
-        if len(text) > LONGEST:
+        if len(text) > LONGEST and not self.is_marked:
             self.findings.warn(LONGEST + 1, Finding("gcode-long-line", length=len(text), most=LONGEST))
         if not text or (text[0] in _APART and self.is_apart(text)):
             return
@@ -104,7 +106,8 @@ class _Reader:
     def is_apart(self, text: str) -> bool:
         """Tell whether a line is no block of words: what begins and ends a file, or is between a person and GRBL."""
         if mark := _MARK.fullmatch(text):
-            self.findings.warn(1, Finding("gcode-not-grbl", word=mark[1]))
+            if not self.is_marked:
+                self.findings.warn(1, Finding("gcode-not-grbl", word=mark[1]))
         elif system := _SYSTEM.fullmatch(text):
             self.findings.warn(1, Finding("gcode-grbl-only", word=system[1]))
             if system[1].upper() == "$H":
