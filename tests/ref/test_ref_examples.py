@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 
 import pytest
 from refhelp import move
 
-from skg.ref import run
+from skg.ref import Result, run
 from skg.ref.parser import parse_line
 from skg.ref.statements import Assign, Cut, From, Goto, If, Print, Simple
 from skg.ref.tape import grid
@@ -17,7 +18,20 @@ EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.skg"))
 OPEN = {"cad-tape", "skg04-polar"}
 CORE = (Assign, From, Cut, Goto, If, Print, Simple)
 
-examples = pytest.mark.parametrize("path", EXAMPLES, ids=lambda p: p.stem)
+#: An example's tests stay in one process, which runs it once.
+examples, closed = (
+    pytest.mark.parametrize(
+        "path",
+        [pytest.param(part, id=part.stem, marks=pytest.mark.xdist_group(f"ref {part.stem}")) for part in parts],
+    )
+    for parts in (EXAMPLES, [part for part in EXAMPLES if part.stem not in OPEN])
+)
+
+
+@cache
+def result_of(path: Path) -> Result:
+    """What the reference makes of an example."""
+    return run(path.read_text())
 
 
 def is_core(path: Path) -> bool:
@@ -26,7 +40,7 @@ def is_core(path: Path) -> bool:
 
 @examples
 def test_tape_is_the_committed_one(path: Path) -> None:
-    result = run(path.read_text())
+    result = result_of(path)
     assert result.error is None, result.paper
     assert result.tape == path.with_suffix(".3b").read_bytes()
 
@@ -34,9 +48,8 @@ def test_tape_is_the_committed_one(path: Path) -> None:
 @examples
 def test_is_well_conditioned(path: Path) -> None:
     """No example hangs on less than a nanometre nor on another close call: the firmware's floats will do."""
-    source = path.read_text()
-    assert [call for call in run(source).near if call.margin < 1e-3] == []
-    assert run(source, bits=33).tape == path.with_suffix(".3b").read_bytes()
+    assert [call for call in result_of(path).near if call.margin < 1e-3] == []
+    assert run(path.read_text(), bits=33).tape == path.with_suffix(".3b").read_bytes()
 
 
 @examples
@@ -54,7 +67,7 @@ def test_says_what_it_is(path: Path) -> None:
     assert is_core(path) == core
 
 
-@pytest.mark.parametrize("path", [p for p in EXAMPLES if p.stem not in OPEN], ids=lambda p: p.stem)
+@closed
 def test_closed_part_sums_to_zero(path: Path) -> None:
     """Between the stops the wire comes back to where it was, by the blocks alone and in true coordinates."""
     parts = path.with_suffix(".3b").read_bytes().decode().split("D\r\n")[::2]
@@ -65,7 +78,7 @@ def test_closed_part_sums_to_zero(path: Path) -> None:
         assert abs(sum(x for x, _ in moves)) <= slack
         assert abs(sum(y for _, y in moves)) <= slack
     place = None
-    for s in run(path.read_text()).path:
+    for s in result_of(path).path:
         if s.role == "entry":
             place = grid(s.start)
         if s.role == "return":
