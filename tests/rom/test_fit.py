@@ -215,10 +215,11 @@ def test_regression(path: Path) -> None:
 def test_family_can_be_cut(family: Family) -> None:
     """Most programs of each family run through, and make fitted blocks; `wide` meets error 7 too, and behind a corner
     most meet error 6."""
-    results = [reference(curve_part(Random(f"{SEED} {n}"), [family])) for n in range(12)]
+    # (always the same: what hunts on other seeds look for is differences)
+    results = [reference(curve_part(Random(f"1983 {n}"), [family])) for n in range(6)]
     fine = sum(result.error is None for result in results)
-    few = {"wide": 4, "degenerate": 4, "odd_nodes": 4, "shaken": 4, "beside_a_circle": 4, "behind_a_corner": 2}
-    assert fine >= few.get(family.__name__, 7)
+    few = {"wide": 2, "degenerate": 2, "odd_nodes": 2, "shaken": 2, "beside_a_circle": 2, "behind_a_corner": 1}
+    assert fine >= few.get(family.__name__, 4)
     assert sum(s.is_arc for result in results for s in result.path) >= 10
     errors = {result.error[0] for result in results if result.error}
     if family.__name__ == "wide":
@@ -287,7 +288,7 @@ of_tol_programs = pytest.mark.xdist_group("TOL programs")
 @cache
 def tol_programs() -> list[tuple[str, Result]]:
     """Random programs with TOL, and what the reference makes of them."""
-    rng = Random("1983 mistakes")  # always the same: what hunts on other seeds look for is differences
+    rng = Random("1983 mistakes")  # (always the same, too)
     programs = [curve_part(rng, TOL_FAMILIES) for _ in range(TOL_PROGRAMS)]
     return [(program, reference(program)) for program in programs]
 

@@ -68,8 +68,8 @@ def micrometres(segment: Segment) -> Curve:
 
 
 @cache
-def steps(part: Path, drift: bool) -> tuple[Step, ...]:
-    """The reference's steps for a part, segment by segment."""
+def followed(part: Path, drift: bool) -> tuple[tuple[Step, ...], bytes]:
+    """The reference's steps for a part, segment by segment, and its tape."""
     found: list[Step] = []
     emit = Cutter._emit
 
@@ -81,10 +81,16 @@ def steps(part: Path, drift: bool) -> tuple[Step, ...]:
 
     Cutter._emit = watched
     try:
-        assert run(part.read_text(), drift=drift).error is None
+        result = run(part.read_text(), drift=drift)
     finally:
         Cutter._emit = emit
-    return tuple(found)
+    assert result.error is None
+    return tuple(found), result.tape
+
+
+def steps(part: Path, drift: bool) -> tuple[Step, ...]:
+    """The reference's steps for a part."""
+    return followed(part, drift)[0]
 
 
 def stepped(block: str, at: Grid) -> NDArray[np.int64]:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from drifthelp import EXAMPLES, OPEN, Curve, farthest, stepped, steps
+from drifthelp import EXAMPLES, OPEN, Curve, farthest, followed, stepped, steps
 from facthelp import says
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -44,7 +44,7 @@ def test_the_wire_is_where_the_tape_takes_it_to_be(part: Path) -> None:
             at = int(x), int(y)
         assert step.after == at
         assert max(abs(at[0] - step.curve.end[0]), abs(at[1] - step.curve.end[1])) < 2
-    tape = tapes.parse(reference(part.read_text(), drift=False).tape)
+    tape = tapes.parse(followed(part, drift=False)[1])
     assert [problem for block in tape.blocks for problem in block.problems()] == []
     if part.stem not in OPEN:
         assert simulate(tape).closed

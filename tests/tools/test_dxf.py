@@ -6,6 +6,7 @@ import io
 import os
 import subprocess
 import sys
+import tempfile
 import tracemalloc
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
@@ -42,6 +43,7 @@ from skg.planning.plan import plan
 from skg.reading import dxf_entities, dxf_file
 from skg.reading.account import Content
 from skg.reading.chain import chain, merged
+from skg.ref import Result as Referred
 from skg.ref import run as run_reference
 from skg.sources import load
 from skg.sources.load import lay_out
@@ -59,6 +61,11 @@ LOST_ON_TAPE = {drawings.gear_wheel: 8.6}
 #: A program may miss the drawing by this, µm: the tolerance of FIT's nodes, which is tried at points of the curve,
 #: and the programs' six decimals.
 EXACT = 0.23
+
+#: The tests of a drawing stay in one process, which keeps its program and what the reference makes of it.
+every_drawing = pytest.mark.parametrize(
+    "make", [pytest.param(make, marks=pytest.mark.xdist_group(f"drawing {make.__name__}")) for make in drawings.ALL]
+)
 
 SEED = int(os.environ.get("SKG_SEED", "1983"))
 #: Random contours; SKG_CONTOURS gives more of them.
@@ -87,6 +94,7 @@ def contours_of(edges: list[Edge]) -> list[Contour]:
     return [merged(contour) for contour in chain(edges, 0.005).contours]
 
 
+@cache
 def program_of(make: Callable[[], Drawing], offset: float = 0.0, **wishes: object) -> str:
     contours = contours_of(edges_of(make))
     wanted = CutSettings(offset=offset, side=str(wishes.get("side", "auto")), reverse=bool(wishes.get("reverse")))
@@ -128,12 +136,18 @@ def apart(ones: list[Edge], others: list[Edge]) -> float:
     return max(off(points_along(ones), others).max(), off(points_along(others), ones).max())
 
 
+@cache
+def referred(program: str, drift: bool) -> Referred:
+    """What the reference makes of a program without a mistake."""
+    result = run_reference(program, drift=drift)
+    assert result.error is None, (result.error, program)
+    return result
+
+
 def path_edges(program: str) -> list[Edge]:
     """The contours that the reference cuts, exact, as edges."""
-    result = run_reference(program)
-    assert result.error is None, (result.error, program)
     found = []
-    for segment in result.path:
+    for segment in referred(program, True).path:
         if segment.role not in ("cut", "fillet"):
             continue
         start, end = ((float(p.x), float(p.y)) for p in (segment.start, segment.end))
@@ -150,11 +164,9 @@ def tape_edges(made: tapes.Tape, positions: str, polylines: bool = False) -> lis
     return collect(drawn(routes, stops, polylines), ("WIRE",)).edges
 
 
-@cache
 def by_reference(program: str, drift: bool) -> tapes.Tape:
     """The tape that the reference makes of a program."""
-    result = run_reference(program, drift=drift)
-    assert result.error is None, (result.error, program)
+    result = referred(program, drift)
     start = result.path[0].start
     return replace(tapes.parse(result.tape), start=(float(start.x), float(start.y)))
 
@@ -166,38 +178,45 @@ def emulator(build: Callable[..., None]) -> Path:
     return ROOT / "build" / "skg80"
 
 
-def by_rom(emulator: Path, image: str, program: str, directory: Path) -> tapes.Tape:
+@cache
+def punched(emulator: Path, image: str, program: str) -> bytes:
+    """What a ROM punches for a program."""
+    with tempfile.TemporaryDirectory() as scratch:
+        part = Path(scratch) / "part.skg"
+        part.write_text(program)
+        rom = ROOT / "roms" / f"{image}.bin"
+        command = [emulator, "--rom", rom, "--max-cycles", str(10**12), part]
+        return subprocess.run(command, capture_output=True, check=True).stdout
+
+
+def by_rom(emulator: Path, image: str, program: str) -> tapes.Tape:
     """The tape that a ROM punches for a program."""
-    part = directory / "part.skg"
-    part.write_text(program)
-    rom = ROOT / "roms" / f"{image}.bin"
-    done = subprocess.run([emulator, "--rom", rom, "--max-cycles", str(10**12), part], capture_output=True, check=True)
-    return replace(tapes.parse(done.stdout), start=by_reference(program, True).start)
+    return replace(tapes.parse(punched(emulator, image, program)), start=by_reference(program, True).start)
 
 
-@pytest.mark.parametrize("make", drawings.ALL)
+@every_drawing
 def test_program_cuts_the_drawing(make: Callable[[], Drawing]) -> None:
     assert apart(path_edges(program_of(make)), edges_of(make)) < EXACT
 
 
-@pytest.mark.parametrize("make", drawings.ALL)
+@every_drawing
 def test_written_without_fillets(make: Callable[[], Drawing]) -> None:
     assert apart(path_edges(program_of(make, fillets=False)), edges_of(make)) < EXACT
 
 
 @pytest.mark.parametrize("polylines", [False, True])
-@pytest.mark.parametrize("make", drawings.ALL)
-def test_round_trip(make: Callable[[], Drawing], polylines: bool, emulator: Path, tmp_path: Path) -> None:
+@every_drawing
+def test_round_trip(make: Callable[[], Drawing], polylines: bool, emulator: Path) -> None:
     """DXF, SKG, ROM, 3B and DXF again: on the standard tape."""
-    made = by_rom(emulator, "skg", program_of(make), tmp_path)
+    made = by_rom(emulator, "skg", program_of(make))
     assert apart(tape_edges(made, "programmed", polylines), edges_of(make)) < LOST_ON_TAPE.get(make, LIMIT)
 
 
 @pytest.mark.parametrize("polylines", [False, True])
-@pytest.mark.parametrize("make", drawings.ALL)
-def test_round_trip_without_drift(make: Callable[[], Drawing], polylines: bool, emulator: Path, tmp_path: Path) -> None:
+@every_drawing
+def test_round_trip_without_drift(make: Callable[[], Drawing], polylines: bool, emulator: Path) -> None:
     """The same on the tape of skg-nodrift."""
-    made = by_rom(emulator, "skg-nodrift", program_of(make), tmp_path)
+    made = by_rom(emulator, "skg-nodrift", program_of(make))
     assert apart(tape_edges(made, "machine", polylines), edges_of(make)) < LIMIT_WITHOUT_DRIFT
 
 
@@ -213,7 +232,7 @@ def row(make: Callable[[], Drawing]) -> str:
     return f"| {name} | {len(made.blocks)} | " + " | ".join(f"{figure:.2f}" for figure in figures) + " |\n"
 
 
-@pytest.mark.parametrize("make", drawings.ALL)
+@every_drawing
 def test_table_of_the_manual(make: Callable[[], Drawing]) -> None:
     """Run as a program, this file writes the table anew."""
     assert row(make) in PAGE.read_text()
@@ -287,7 +306,7 @@ def test_any_contour_without_drift(contour: Callable[[Random], Drawing], limit: 
 
 
 @pytest.mark.parametrize("wishes", [{}, {"reverse": True}])
-@pytest.mark.parametrize("make", drawings.ALL)
+@every_drawing
 def test_offset(make: Callable[[], Drawing], wishes: dict) -> None:
     """The wire never comes nearer to the contour than R, and away from corners it is R away."""
     r = 0.13
