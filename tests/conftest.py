@@ -8,11 +8,12 @@ import os
 import subprocess
 import sys
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import coded
 import kept
+import prose
 import pytest
 from hypothesis import HealthCheck, settings
 
@@ -52,6 +53,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("markers", "wording: a test of sentences, of the catalogues or of the pages that show them")
+    prose.watch()
     if config.getoption("--codes"):
         coded.replace()
         os.environ["PYTHONPATH"] = os.pathsep.join(
@@ -86,6 +88,14 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
         terminalreporter.write_line(
             "Skipped: " + "; ".join(f"{count}: {why}" for why, count in sorted(reasons.items()))
         )
+
+
+@pytest.fixture(autouse=True)
+def chinese_values() -> Iterator[None]:
+    """No message that a test makes has an English sentence among its values."""
+    prose.found.clear()
+    yield
+    assert not prose.found, f"English on a Chinese screen: {prose.found[:3]}"
 
 
 @pytest.fixture(scope="session")

@@ -11,9 +11,12 @@ from pathlib import Path
 
 import click
 import polib
+import prose
 import pytest
+from prose import ENGLISH
 
 from skg.cli import COMMANDS, cli
+from skg.messages.finding import Finding, Phrase
 
 pytestmark = pytest.mark.wording
 
@@ -21,8 +24,6 @@ ROOT = Path(__file__).parents[2]
 SKG = Path(sys.executable).with_name("skg")
 MESSAGES = ROOT / "tools" / "skg" / "messages"
 HAN = re.compile(r"[\u4e00-\u9fff]")
-#: Two English words in a row are a sentence; one alone is a name: of a file, a layer, a word of a language, an option.
-ENGLISH = re.compile(r"\b[A-Za-z]?[a-z]{2,} [a-z]{2,}\b")
 #: Fields, code, and options with their values are names.
 NAMES = re.compile(r"\{[^}]*\}|`[^`]*`|（pipx [^）]*）|--[a-z-]+( [a-z]+)?|skg [a-z]+")
 
@@ -72,6 +73,14 @@ SAYING = {
     "an error of the ROM": (["run", "-", "-o", os.devnull], 1, "10 CUT O,(1,0)\n20 A=1/0\n"),
     "no port": (["term", "/dev/no-port", "--batch"], 2, ""),
 }  # fmt: skip
+
+
+def test_english_among_values_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What each test looks for: a sentence, also among others; not a name, and not a library's words."""
+    monkeypatch.setattr(prose, "found", [])
+    Phrase("plain", text=("LAYER1", "part.dxf", "the length is missing"))
+    Finding("library-error", error="ValueError", detail="could not convert string")
+    assert prose.found == ["plain, text: the length is missing"]
 
 
 @pytest.mark.parametrize("what", SAYING)

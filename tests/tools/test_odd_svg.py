@@ -171,14 +171,20 @@ def test_pages(size: str, expected: Box) -> None:
         ("<x:rect xmlns:x='urn:x' width='5' height='5'/>", "reason-name-space"),
         ("<use href='#nothing'/>", Phrase("reason-link-lost", link="#nothing")),
         ("<g id='g'><use href='#g'/></g>", Phrase("reason-link-itself", link="#g")),
-        ("<path d='M0 0 L 5 5 Q 3 X 4'/>", Phrase("reason-unread", detail="its path data, at X 4")),
-        ("<path d='M0 0 L 5 5 Q 3 4'/>", Phrase("reason-unread", detail="its path data")),
-        ("<path d='M0 0 H 5 V 5 z # M1 1 H 2 V 2 z'/>", Phrase("reason-unread", detail="its path data, at # M1 1 H 2")),
-        ("<path d='L 5 5 H 9 z'/>", Phrase("reason-unread", detail="its path data, at L 5 5 H 9 ")),
-        ("<polygon points='0,0 5,0 5;5'/>", Phrase("reason-unread", detail="its points")),
-        ("<polyline points='0 0 5 0 5'/>", Phrase("reason-unread", detail="its points")),
-        ("<rect width='2em' height='5'/>", Phrase("reason-unread", detail="its length 2em")),
-        ("<rect width='calc(9px + 1mm)' height='5'/>", Phrase("reason-unread", detail="its length calc(9px + 1mm)")),
+        ("<path d='M0 0 L 5 5 Q 3 X 4'/>", Phrase("reason-unread", what=Phrase("unread-path-at", found="X 4"))),
+        ("<path d='M0 0 L 5 5 Q 3 4'/>", Phrase("reason-unread", what=Phrase("unread-path"))),
+        (
+            "<path d='M0 0 H 5 V 5 z # M1 1 H 2 V 2 z'/>",
+            Phrase("reason-unread", what=Phrase("unread-path-at", found="# M1 1 H 2")),
+        ),
+        ("<path d='L 5 5 H 9 z'/>", Phrase("reason-unread", what=Phrase("unread-path-at", found="L 5 5 H 9 "))),
+        ("<polygon points='0,0 5,0 5;5'/>", Phrase("reason-unread", what=Phrase("unread-points"))),
+        ("<polyline points='0 0 5 0 5'/>", Phrase("reason-unread", what=Phrase("unread-points"))),
+        ("<rect width='2em' height='5'/>", Phrase("reason-unread", what=Phrase("unread-length", text="2em"))),
+        (
+            "<rect width='calc(9px + 1mm)' height='5'/>",
+            Phrase("reason-unread", what=Phrase("unread-length", text="calc(9px + 1mm)")),
+        ),
         ("<rect width='5' height='5' fill-opacity='0'/>", "reason-unpainted"),
         ("<g fill='#fff0'><rect width='5' height='5' stroke='red' stroke-width='0'/></g>",
          "reason-unpainted"),
@@ -189,11 +195,11 @@ def test_pages(size: str, expected: Box) -> None:
         ("<rect width='5' height='5' fill='hsla(9, 9%, 9%, .0)'/>", "reason-unpainted"),
         (
             "<rect width='5' height='5' transform='matrix(1 2)'/>",
-            Phrase("reason-unread", detail="its transform, matrix(1 2)"),
+            Phrase("reason-unread", what=Phrase("unread-transform", text="matrix(1 2)")),
         ),
         (
             "<rect width='5' height='5' transform='scale(2)' style='transform-origin:1px 1px;transform-box:fill-box'/>",
-            Phrase("reason-unread", detail="its transform-origin, 1px 1px, fill-box"),
+            Phrase("reason-unread", what=Phrase("unread-origin", text="1px 1px, fill-box")),
         ),
         ("<text>a</text>", "reason-text-to-paths"),
         ("<g transform='scale(1,0)'><rect width='5' height='5'/></g>",
@@ -341,8 +347,8 @@ def test_parts_of_a_page_without_a_size_are_left() -> None:
     reading = checked(page(content, ""), units="mm")
     assert len(reading.contours) == 1
     assert left(reading) == {
-        Phrase("reason-unread", detail="its length 50%, of a frame without a size"): 1,
-        Phrase("reason-unread", detail="a view box in a frame without a size"): 1,
+        Phrase("reason-unread", what=Phrase("unread-part", text="50%")): 1,
+        Phrase("reason-unread", what=Phrase("unread-no-frame")): 1,
     }
 
 

@@ -23,13 +23,29 @@ _OF_SYSTEM = {
     errno.EBUSY: "system-busy",
     errno.ENAMETOOLONG: "system-long-name",
     errno.EADDRINUSE: "system-port-taken",
+    errno.EFBIG: "system-too-large",
+    errno.EPERM: "system-not-permitted",
+    errno.ELOOP: "system-links",
+    errno.ENXIO: "system-no-address",
+    errno.ENODEV: "system-no-device",
+    errno.ECONNREFUSED: "system-refused",
+    errno.EINVAL: "system-invalid",
 }
 
 
 def of_system(error: OSError) -> Finding:
     """An error of the system."""
-    code = _OF_SYSTEM.get(error.errno or 0)
-    return Finding(code) if code else Finding("system", detail=error.strerror or str(error))
+    number = error.errno or 0
+    if code := _OF_SYSTEM.get(number):
+        return Finding(code)
+    name = errno.errorcode.get(number, type(error).__name__)
+    return Finding("system", error=name, detail=error.strerror or str(error) or name)
+
+
+def of_library(error: Exception) -> Finding:
+    """An error of a library: its kind, and its own words, which are English."""
+    name, detail = type(error).__name__, " ".join(str(error).split())
+    return Finding("library-error", error=name, detail=detail) if detail else Finding("plain", text=name)
 
 
 class UserError(Exception):

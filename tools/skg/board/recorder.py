@@ -50,7 +50,7 @@ def wrong_with(data: bytes, listing: Listing) -> Finding | None:
         return _wrong_with_milling(data)
     _, faults = scan(data)
     if faults:
-        return Finding("tape-not-whole", number=faults[0].block, detail=faults[0].why)
+        return Finding("tape-not-whole", number=faults[0].block, why=faults[0].why)
     blocks = [each for each in data.split(b"\r\n") if each.startswith(b"B")]
     if listing.is_broken or listing.blocks and listing.blocks != blocks:
         return Finding("tape-not-listed", count=len(blocks), listed=len(listing.blocks))
@@ -125,7 +125,7 @@ class Recorder:
             else:
                 self._path.replace(os.path.realpath(self.name))
         except OSError as error:
-            finding = Finding("tape-not-named", detail=of_system(error), part=str(self._path))
+            finding = Finding("tape-not-named", why=of_system(error), part=str(self._path))
             raise UserError(finding.within(self.name)) from None
         return True
 

@@ -23,7 +23,7 @@ from tqdm import tqdm
 from skg.board.board import ErrorLine, find_error
 from skg.board.keyboard import ESCAPE, TERMINAL_TROUBLE
 from skg.board.recorder import Listing, Recorder
-from skg.errors import UserError, of_system
+from skg.errors import UserError, of_library, of_system
 from skg.messages.finding import Finding, Phrase
 from skg.messages.render import line as line_of
 from skg.signs import Keys
@@ -100,7 +100,7 @@ class Port:
         except _TROUBLE as error:
             if _is_in_use(error):
                 raise UserError(Finding("port-in-use").within(name)) from None
-            raise UserError(Finding("system", detail=_reason(error)).within(name)) from None
+            raise UserError(_reason(error).within(name)) from None
 
     def _open(self) -> serial.SerialBase:
         opened = serial.serial_for_url(self.name, **self.settings)
@@ -113,7 +113,7 @@ class Port:
             if self.closing or self.serial is not broken:
                 return
             self.is_away = True
-            self.say(Finding("port-went-away", port=self.name, detail=_reason(error)))
+            self.say(Finding("port-went-away", port=self.name, why=_reason(error)))
             with contextlib.suppress(*_TROUBLE):
                 broken.close()
             since = time.monotonic()
@@ -122,7 +122,7 @@ class Port:
                     self.serial = self._open()
                 except _TROUBLE as again:
                     if self.patience and time.monotonic() - since > self.patience:
-                        raise UserError(Finding("port-given-up", detail=_reason(again)).within(self.name)) from None
+                        raise UserError(Finding("port-given-up", why=_reason(again)).within(self.name)) from None
                     time.sleep(_RETRY)
                 else:
                     self.say(Finding("port-is-back", port=self.name))
@@ -177,15 +177,15 @@ def _is_in_use(error: Exception) -> bool:
     return any(isinstance(cause, OSError) and cause.errno in (errno.EAGAIN, errno.EBUSY) for cause in causes)
 
 
-def _reason(error: Exception) -> str | Phrase:
-    """An error's own words, without the wrapping that pyserial puts around them."""
+def _reason(error: Exception) -> Finding:
+    """The error of the system that is in one of pyserial's, or pyserial's own."""
     cause = error.__context__
     number = cause.args[0] if isinstance(cause, TERMINAL_TROUBLE) else getattr(error, "errno", None)
     if number == errno.ENOTTY and isinstance(cause, TERMINAL_TROUBLE):
-        return Phrase("no-serial-port")
+        return Finding("no-serial-port")
     if number:
         return of_system(OSError(number, os.strerror(number)))
-    return str(error).splitlines()[0] if str(error) else type(error).__name__
+    return of_library(error)
 
 
 class BrokenOff(Exception):

@@ -57,7 +57,7 @@ def command(file: Path | None, port: int, no_browser: bool, until_eof: bool) -> 
         try:
             server = Server(port, session)
         except OSError as error:
-            raise UserError(Finding("port-failed", port=port, detail=of_system(error))) from None
+            raise UserError(Finding("port-failed", port=port, why=of_system(error))) from None
         with server, _way_to(server.url, server.is_seen, no_browser) as address:
             session.begin(file)
             click.echo(server.url)

@@ -6,7 +6,6 @@ dialect = dialect_of("my-machine.toml")
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from difflib import get_close_matches
 from importlib.resources import files
@@ -15,7 +14,7 @@ from typing import Any
 
 from skg.errors import UserError
 from skg.files import read_bytes
-from skg.job import values
+from skg.job import toml, values
 from skg.job.file import checked_values, expect_table
 from skg.messages.finding import Finding, Phrase
 from skg.tape.dialect import ARCS, LINE_ENDS, PLACES, UNITS, Compensation, GcodeDialect
@@ -100,10 +99,7 @@ def dialect_of(name: str) -> GcodeDialect:
 
 def decoded(data: bytes, name: str) -> GcodeDialect:
     """The dialect of a file's bytes; what is wrong with it is a `UserError` with its table and key."""
-    try:
-        top = tomllib.loads(data.decode("utf-8-sig"))
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
-        raise UserError(Finding("not-toml", detail=str(error)).within(name)) from None
+    top = toml.parsed(toml.decoded(data, name), name)
     known: dict[str, Any] = {**_TOP, **_TABLES}
     fields = checked_values({key: value for key, value in top.items() if key not in _TABLES}, known, name)
     tables = {

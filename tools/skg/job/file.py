@@ -7,7 +7,6 @@ text = dump(job)
 from __future__ import annotations
 
 import json
-import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from difflib import get_close_matches
@@ -15,7 +14,7 @@ from functools import partial
 from typing import Any
 
 from skg.errors import UserError
-from skg.job import values
+from skg.job import toml, values
 from skg.job.job import KINDS, Chosen, Job, Price, TapeForm
 from skg.job.machine import INTO, ROMS, SMALL, BoardOptions, Policy, Setup
 from skg.job.placing import MIRRORS, Copies, Place
@@ -28,8 +27,6 @@ from skg.tape.styles import STYLES
 Tables = Mapping[str, Mapping[str, Any]]
 #: The version of the file's form.
 SCHEMA = 1
-#: Names of a drawing's layers may have bytes that are no text: they stay what they are.
-_ODD = "surrogateescape"
 
 _READ: dict[str, values.Check] = {
     "units": values.choice(UNITS),
@@ -144,33 +141,17 @@ SETUP: dict[str, tuple[str, ...]] = {
 
 def load(text: str, name: str, setup: Tables | None = None) -> Job:
     """Read a job file's text; `name` is the file's name, for messages. `setup`: tables for what it does not say."""
-    return from_data(_parsed(text, name), name, setup)
-
-
-def _parsed(text: str, name: str) -> dict[str, Any]:
-    try:
-        return tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
-        # (an int of more than 4,300 digits is a plain ValueError)
-        detail = str(error) or "nested too deeply"
-        raise UserError(Finding("not-toml", detail=detail).within(name)) from None
+    return from_data(toml.parsed(text, name), name, setup)
 
 
 def decoded(data: bytes, name: str, setup: Tables | None = None) -> Job:
     """Read a job file's bytes: UTF-8. `setup`: tables for what it does not say."""
-    return load(_text(data, name), name, setup)
-
-
-def _text(data: bytes, name: str) -> str:
-    try:
-        return data.decode("utf-8-sig", _ODD)
-    except UnicodeDecodeError as error:
-        raise UserError(Finding("not-utf-8", number=error.start + 1).within(name)) from None
+    return load(toml.decoded(data, name), name, setup)
 
 
 def decoded_setup(data: bytes, name: str) -> Tables:
     """Read a setup file's bytes: some keys of a job file's tables."""
-    return setup_from_data(_parsed(_text(data, name), name), name)
+    return setup_from_data(toml.parsed(toml.decoded(data, name), name), name)
 
 
 def setup_from_data(data: object, name: str) -> Tables:
@@ -188,7 +169,7 @@ def encoded_setup(setup: Tables) -> bytes:
     for table in SETUP:
         if keys := setup.get(table):
             lines += [*[""] * bool(lines), f"[{table}]", *pairs(keys)]
-    return "".join(f"{line}\n" for line in lines).encode("utf-8", _ODD)
+    return "".join(f"{line}\n" for line in lines).encode("utf-8", toml.ODD)
 
 
 def over(tables: Tables, setup: Tables) -> dict[str, dict[str, Any]]:
@@ -205,7 +186,7 @@ def over(tables: Tables, setup: Tables) -> dict[str, dict[str, Any]]:
 
 def encoded(job: Job) -> bytes:
     """The bytes of a job file."""
-    return dump(job).encode("utf-8", _ODD)
+    return dump(job).encode("utf-8", toml.ODD)
 
 
 def from_data(data: object, name: str, setup: Tables | None = None) -> Job:

@@ -25,6 +25,7 @@ from skg.reading.curves import is_number
 from skg.reading.dxf_file import Definition, DxfFile
 from skg.reading.dxf_placing import LEAVES, NotFlat, Placing, is_full, swept
 from skg.reading.dxf_record import Record, unescaped
+from skg.reading.unread import reason_of
 
 if TYPE_CHECKING:
     from ezdxf.entities import DXFGraphic
@@ -157,7 +158,7 @@ class _Collector:
         except NotFlat as error:
             account.reason = error.reason
         except UNREADABLE as error:
-            account.reason = _unread(error)
+            account.reason = reason_of(error)
         account.is_odd = True
         del self.content.edges[known:]
 
@@ -242,7 +243,7 @@ class _Collector:
         elif len(blocks) > _DEPTH:
             reason = Phrase("reason-block-deep", name=name, most=_DEPTH)
         elif lack := record.lack():
-            reason = Phrase("reason-other", detail=lack)
+            reason = lack
         elif block.base is None:
             reason = Phrase("reason-no-base", name=name)
         hidden = hidden or (Phrase("reason-invisible") if record.whole(60) else None)
@@ -252,7 +253,7 @@ class _Collector:
         try:
             matrices = [] if reason or block is None else self.matrices(record, block)
         except UNREADABLE as error:
-            reason = _unread(error)
+            reason = reason_of(error)
         if reason or block is None:
             account = self.account(record, layer)
             account.reason = hidden or self.unwanted(layer) or reason
@@ -272,7 +273,7 @@ class _Collector:
     def start(self, record: Record) -> XY:
         """A start hole: a POINT, or a CIRCLE around it."""
         if lack := record.lack():
-            raise NotFlat(Phrase("reason-other", detail=lack))
+            raise NotFlat(lack)
         (place,) = self.placing.points([_slow_dxf().start(self.entity(record))])
         return place
 
@@ -281,7 +282,7 @@ class _Collector:
         placing = self.placing
         check_vertices(record.vertices, record.kind)
         if lack := record.lack():
-            raise NotFlat(Phrase("reason-other", detail=lack))
+            raise NotFlat(lack)
         if record.kind in fast_dxf.POLYLINES and (line := fast_dxf.polyline(record)):
             points: list[Sequence[float]] = [(x, y, line.height) for x, y, _ in line.vertices]
             return placing.polyline(points, [bulge for _, _, bulge in line.vertices], line.is_closed)
@@ -331,13 +332,6 @@ def _ellipse(placing: Placing, given: list[float]) -> list[Edge]:
 def _is_note(kind: str, is_start: bool) -> bool:
     """Tell whether there is nothing to cut in entities of a kind; on the layer of start holes: nothing that is one."""
     return kind not in ("POINT", "CIRCLE") if is_start else kind in NOTES
-
-
-def _unread(error: Exception) -> Phrase:
-    """Return the reason why an entity cannot be read."""
-    if isinstance(error, OverflowError):
-        return Phrase("reason-too-large")
-    return Phrase("reason-unread", detail=" ".join(str(error).split()) or type(error).__name__)
 
 
 def _shown(file: DxfFile) -> int:

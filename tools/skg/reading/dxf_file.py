@@ -17,6 +17,7 @@ from skg.file_type import kind_of
 from skg.messages.finding import Finding, Phrase
 from skg.reading.curves import is_number
 from skg.reading.dxf_record import Group, Record, unescaped
+from skg.reading.unread import what_of
 
 #: $INSUNITS -> the name of the units, and mm in one.
 UNITS = {
@@ -206,7 +207,7 @@ def _of_binary(data: bytes) -> Iterator[Group]:
     try:
         yield from slow_dxf.binary_groups(data)
     except (IndexError, ValueError) as error:
-        raise UserError(Finding("not-binary-dxf", detail=str(error) or type(error).__name__)) from None
+        raise UserError(Finding("not-binary-dxf", what=what_of(error))) from None
 
 
 def _decoded(data: bytes, encoding: str | None, notes: list[Finding]) -> str:

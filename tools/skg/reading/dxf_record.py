@@ -7,38 +7,44 @@ from itertools import takewhile
 from math import nan
 
 from skg.geometry.plane import XY
+from skg.messages.finding import Phrase
 
 #: A group: its code and its value as text.
 Group = tuple[int, str]
 
 
+_CENTRE = {10: Phrase("of-centre", side="x"), 20: Phrase("of-centre", side="y")}
+_PLACE = {10: Phrase("of-place", side="x"), 20: Phrase("of-place", side="y")}
 #: The codes that an entity of a kind must have, and what each tells: nothing of it is invented. (The DXF reference has
 #: defaults for what is not here.)
-NEEDED: dict[str, dict[int, str]] = {
-    "LINE": {10: "x of its start", 20: "y of its start", 11: "x of its end", 21: "y of its end"},
-    "CIRCLE": {10: "x of its centre", 20: "y of its centre", 40: "its radius"},
-    "ARC": {
-        10: "x of its centre", 20: "y of its centre", 40: "its radius", 50: "its first angle", 51: "its last angle",
+NEEDED: dict[str, dict[int, Phrase]] = {
+    "LINE": {
+        10: Phrase("of-start", side="x"), 20: Phrase("of-start", side="y"),
+        11: Phrase("of-end", side="x"), 21: Phrase("of-end", side="y"),
     },
+    "CIRCLE": {**_CENTRE, 40: Phrase("its-radius")},
+    "ARC": {**_CENTRE, 40: Phrase("its-radius"), 50: Phrase("its-first-angle"), 51: Phrase("its-last-angle")},
     "ELLIPSE": {
-        10: "x of its centre", 20: "y of its centre", 11: "x of its axis", 21: "y of its axis",
-        40: "the ratio of its axes", 41: "its first parameter", 42: "its last parameter",
+        **_CENTRE, 11: Phrase("of-axis", side="x"), 21: Phrase("of-axis", side="y"),
+        40: Phrase("its-ratio"), 41: Phrase("its-first-parameter"), 42: Phrase("its-last-parameter"),
     },
-    "SPLINE": {71: "its degree"},
-    "HELIX": {71: "its degree"},
-    "LWPOLYLINE": {10: "a vertex", 20: "y of a vertex"},
-    "VERTEX": {10: "x of a vertex", 20: "y of a vertex"},
-    "MLINE": {11: "a vertex", 21: "y of a vertex"},
-    "POINT": {10: "its x", 20: "its y"},
-    "INSERT": {2: "the name of its block", 10: "x of its place", 20: "y of its place"},
+    "SPLINE": {71: Phrase("its-degree")},
+    "HELIX": {71: Phrase("its-degree")},
+    "LWPOLYLINE": {10: Phrase("a-vertex"), 20: Phrase("of-vertex", side="y")},
+    "VERTEX": {10: Phrase("of-vertex", side="x"), 20: Phrase("of-vertex", side="y")},
+    "MLINE": {11: Phrase("a-vertex"), 21: Phrase("of-vertex", side="y")},
+    "POINT": _PLACE,
+    "INSERT": {2: Phrase("its-block-name"), **_PLACE},
 }  # fmt: skip
 NEEDED["3DLINE"] = NEEDED["LINE"]
 #: Codes of counts, of the values that they count, and what these are. (A count may be left out)
 _COUNTED = {
-    "LWPOLYLINE": ((90, 10, "vertices"),),
-    "MLINE": ((72, 11, "vertices"),),
-    "SPLINE": ((72, 40, "knots"), (73, 10, "control points"), (74, 11, "fit points")),
-    "HELIX": ((72, 40, "knots"), (73, 10, "control points"), (74, 11, "fit points")),
+    "LWPOLYLINE": ((90, 10, Phrase("vertices")),),
+    "MLINE": ((72, 11, Phrase("vertices")),),
+    **dict.fromkeys(
+        ("SPLINE", "HELIX"),
+        ((72, 40, Phrase("knots")), (73, 10, Phrase("control-points")), (74, 11, Phrase("fit-points"))),
+    ),
 }
 #: Codes of angles; one larger than this has no direction left in a float.
 _ANGLES, _MOST_ANGLE = {"ARC": (50, 51), "ELLIPSE": (41, 42), "INSERT": (50,)}, 1e6
@@ -88,41 +94,41 @@ class Record:
         """Number of its places, those of its parts included."""
         return len(self.parts) + (self.count(10) if len(self.groups) > _LONG else 1)
 
-    def lack(self) -> str:
-        """Return what its kind must have and it has not, in words; empty when it is whole."""
+    def lack(self) -> Phrase | None:
+        """Return what its kind must have and it has not; None when it is whole."""
         for code, noun in NEEDED.get(self.kind, {}).items():
             if code not in self.first:
-                return f"{noun} is missing (code {code})"
+                return Phrase("lack-missing", what=noun, number=code)
         for code, counted, nouns in _COUNTED.get(self.kind, ()):
             if code in self.first and self.whole(code) != (has := self.count(counted)):
-                return f"{has} of its {self.whole(code)} {nouns} are there"
+                return Phrase("lack-counted", has=has, told=self.whole(code), what=nouns)
         if self.kind == "LWPOLYLINE" and self.count(10) != self.count(20):
-            return f"its vertices have {self.count(10)} x and {self.count(20)} y"
+            return Phrase("lack-sides", x=self.count(10), y=self.count(20))
         if self.kind in ("SPLINE", "HELIX"):
             return self._lack_of_spline()
         if self.kind in ("CIRCLE", "ARC") and self.value(40).strip().startswith("-") and self.real(40) < 0:
-            return f"its radius is {self.real(40):g}"
+            return Phrase("lack-radius", radius=self.real(40))
         for code in _ANGLES.get(self.kind, ()):
             if abs(self.real(code)) > _MOST_ANGLE:
-                return f"its angle {self.value(code).strip()} is too large"
+                return Phrase("lack-angle", angle=self.value(code).strip())
         if self.kind == "POLYLINE":
             if not self.parts or self.parts[-1].kind != "SEQEND":
-                return "its end is missing (SEQEND)"
-            return next(filter(None, (part.lack() for part in self.parts)), "")
-        return ""
+                return Phrase("lack-end")
+            return next(filter(None, (part.lack() for part in self.parts)), None)
+        return None
 
-    def _lack_of_spline(self) -> str:
+    def _lack_of_spline(self) -> Phrase | None:
         """The same of a spline's knots: they are not made up."""
         controls, knots, degree = self.count(10), self.count(40), self.whole(71)
         if not controls and not self.count(11):
-            return "its points are missing"
+            return Phrase("lack-points")
         if degree < 1:
-            return f"its degree is {degree}"
-        if controls and knots != controls + degree + 1:
-            return f"it has {knots} knots, {controls} control points of degree {degree} take {controls + degree + 1}"
+            return Phrase("lack-degree", degree=degree)
+        if controls and knots != (needed := controls + degree + 1):
+            return Phrase("lack-knots", knots=knots, controls=controls, degree=degree, needed=needed)
         if self.count(41) not in (0, controls):
-            return f"it has {self.count(41)} weights, and {controls} control points"
-        return ""
+            return Phrase("lack-weights", weights=self.count(41), controls=controls)
+        return None
 
     def real(self, code: int) -> float:
         """The first value with a code as a number, NaN when it is none."""

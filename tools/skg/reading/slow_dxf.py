@@ -25,12 +25,14 @@ from ezdxf.lldxf.types import DXFTag
 from ezdxf.math import OCS, BSpline, Matrix44, Vec3
 from ezdxf.tools.codepage import toencoding
 
+from skg.errors import of_library
 from skg.geometry.contour import Edge
 from skg.messages.finding import Phrase
 from skg.reading.budget import check_entities, check_vertices
 from skg.reading.curves import spline_edges
 from skg.reading.dxf_placing import LEVEL, NotFlat, Placing, swept
 from skg.reading.dxf_record import Group, Record
+from skg.reading.unread import Unread
 
 __all__ = ["binary_groups", "edges", "encoding", "entity", "is_through_places", "placed", "start", "view"]
 
@@ -59,23 +61,23 @@ _THIRD = "AcDbHelix"
 
 
 @contextmanager
-def _as_value_errors() -> Iterator[None]:
-    """ezdxf's own errors as a `ValueError`: who asks knows of no ezdxf."""
+def _as_unread() -> Iterator[None]:
+    """ezdxf's own errors as an `Unread`: who asks knows of no ezdxf."""
     try:
         yield
     except DXFError as error:
-        raise ValueError(str(error).strip() or type(error).__name__) from None
+        raise Unread(of_library(error)) from None
 
 
 def binary_groups(data: bytes) -> Iterator[Group]:
     """The groups of a binary file, as text; `ValueError` and `IndexError`."""
     try:
-        with _as_value_errors():
+        with _as_unread():
             for tag in binary_tags_loader(data):
                 value = tag.value
                 yield tag.code, value.hex() if isinstance(value, bytes) else str(value)
     except struct.error:
-        raise ValueError("it ends within a number, it has been cut off") from None
+        raise Unread(Phrase("unread-cut-off")) from None
 
 
 def encoding(page: str) -> str:
@@ -85,7 +87,7 @@ def encoding(page: str) -> str:
 
 def entity(record: Record) -> Any:  # noqa: ANN401 (ezdxf has a class for each kind)
     """Return ezdxf's entity of a record, without a document; `ValueError` and whatever else ezdxf raises."""
-    with _as_value_errors():
+    with _as_unread():
         return _entity(record)
 
 
@@ -103,7 +105,7 @@ def around(record: Record, off: float) -> Iterator[list[Vec3]]:
     does."""
     from ezdxf.path import from_hatch  # (slow to import)
 
-    with _as_value_errors():
+    with _as_unread():
         for path in from_hatch(_entity(record)):
             check_vertices(len(path), record.kind)
             yield list(path.flattening(off, segments=4))
@@ -112,7 +114,7 @@ def around(record: Record, off: float) -> Iterator[list[Vec3]]:
 def placed(record: Record, base: tuple[float, float, float], outer: Matrix44 | None) -> list[Matrix44]:
     """From a block's content to the drawing, for each place of a reference's array. `base`: of the block; `outer`: from
     where the reference stands; raises as `entity` does."""
-    with _as_value_errors():
+    with _as_unread():
         return [_matrix(single, base, outer) for single in _singles(_entity(record))]
 
 
@@ -140,7 +142,7 @@ def view(plane: str) -> Matrix44:
 
 def start(entity: Any) -> Vec3:  # noqa: ANN401
     """The place of a start hole: a POINT, or a CIRCLE around it; raises as `entity` does."""
-    with _as_value_errors():
+    with _as_unread():
         return entity.dxf.location if entity.dxftype() == "POINT" else entity.ocs().to_wcs(entity.dxf.center)
 
 
@@ -151,7 +153,7 @@ def is_through_places(entity: Any) -> bool:  # noqa: ANN401
 
 def edges(entity: Any, placing: Placing, styles: dict[str, Record]) -> Iterator[Edge]:  # noqa: ANN401
     """One entity's edges, placed on the drawing; `styles`: of multilines. Raises as `entity` does, and `NotFlat`."""
-    with _as_value_errors():
+    with _as_unread():
         yield from _edges(entity, placing, styles)
 
 
@@ -274,6 +276,6 @@ def _together(tags: list[DXFTag], codes: tuple[int, int, int]) -> list[DXFTag]:
     elif codes[0] in given and codes[1] in given:
         whole = [DXFTag(code, given[code]) for code in codes if code in given]
     else:
-        raise ValueError(f"code {codes[1] if codes[0] in given else codes[0]} is missing")
+        raise Unread(Phrase("unread-code", number=codes[1] if codes[0] in given else codes[0]))
     index = next(index for index, tag in enumerate(tags) if tag.code in codes)
     return tags[:index] + whole + [tag for tag in tags[index:] if tag.code not in codes]

@@ -14,15 +14,17 @@ from functools import cached_property
 from io import BytesIO
 from typing import Any
 from xml.etree import ElementTree
+from xml.parsers.expat import ErrorString
 
 import svgelements
 
-from skg.errors import UserError
+from skg.errors import UserError, of_library
 from skg.geometry.plane import XY
 from skg.messages.finding import Finding, Phrase
 from skg.reading import budget
 from skg.reading.curves import is_number
 from skg.reading.svg_style import Style, StyleSheet
+from skg.reading.unread import Unread, reason_of
 
 #: mm in one of the units that a page's width is given in.
 UNITS = {"mm": 1.0, "cm": 10.0, "in": 25.4, "pt": 25.4 / 72, "pc": 25.4 / 6, "q": 0.25}
@@ -126,8 +128,14 @@ class SvgFile:
         try:
             data = _unpacked(data) if data[:2] == b"\x1f\x8b" else data
             self.root = ElementTree.fromstring(data)
-        except (ElementTree.ParseError, OSError, EOFError, ValueError, LookupError, zlib.error) as error:
-            raise UserError(Finding("not-svg", detail=str(error))) from None
+        except ElementTree.ParseError as error:
+            row, column = error.position
+            wrong = Phrase("xml-at", line=row, column=column + 1, detail=ErrorString(error.code))
+            raise UserError(Finding("not-svg", what=wrong)) from None
+        except (OSError, EOFError, zlib.error):
+            raise UserError(Finding("not-svg", what=Phrase("packed-broken"))) from None
+        except (ValueError, LookupError) as error:
+            raise UserError(Finding("not-svg", what=of_library(error))) from None
         if tag_of(self.root) != "svg":
             raise UserError(Finding("svg-root", root=tag_of(self.root)))
         self.px, self.guessed = PX, "px-96"
@@ -147,8 +155,8 @@ class SvgFile:
         self.elsewhere = _elsewhere(data, self.sheet)
         try:
             box = _view_box(self.root)
-        except ValueError as error:
-            raise UserError(Finding("svg-page", detail=str(error))) from None
+        except Unread as error:
+            raise UserError(Finding("svg-page", what=error.what)) from None
         self.style = self.sheet.style(self.root, self.root, Style())
         self.units = self._units()
         if box and self.units:
@@ -255,7 +263,7 @@ class SvgFile:
             else:
                 shown = self._children(element, view, (*around, element), used)
         except UNREADABLE as error:
-            yield Shown(element, view, Phrase("reason-unread", detail=str(error) or type(error).__name__))
+            yield Shown(element, view, reason_of(error))
             return
         if name in NOTES:
             yield Shown(element, view, hidden or NOTES[name])
@@ -339,10 +347,10 @@ def length_of(text: str, whole: float | None, px: float) -> float | None:
     match = re.fullmatch(rf"({NUMBER})\s*([a-zA-Z]*|%)", text)
     unit = match[2].lower() if match else None
     if match is None or unit not in ("", "px", "%", *UNITS):
-        raise ValueError(f"its length {text}")
+        raise Unread(Phrase("unread-length", text=text))
     if unit == "%":
         if whole == 0:
-            raise ValueError(f"its length {text}, of a frame without a size")
+            raise Unread(Phrase("unread-part", text=text))
         return None if whole is None else float(match[1]) / 100 * whole
     return float(match[1]) * (UNITS[unit] / px if unit in UNITS else 1.0)
 
@@ -377,14 +385,14 @@ def _transform(style: Style, view: View) -> svgelements.Matrix:
     whole = [length_of(_SIDES.get(word, word), side, view.px) for word, side in zip(words, view.size, strict=True)]
     x, y = whole
     if x is None or y is None or style.box not in ("", "view-box"):
-        raise ValueError(f"its transform-origin, {style.origin}, {style.box}".strip(", "))
+        raise Unread(Phrase("unread-origin", text=f"{style.origin}, {style.box}".strip(", ")))
     translate = svgelements.Matrix.translate
     if not _TRANSFORMS.fullmatch(style.transform):
-        raise ValueError(f"its transform, {style.transform}")
+        raise Unread(Phrase("unread-transform", text=style.transform))
     try:
         matrix = svgelements.Matrix(style.transform)
     except (LookupError, ValueError):
-        raise ValueError(f"its transform, {style.transform}") from None
+        raise Unread(Phrase("unread-transform", text=style.transform)) from None
     return translate(-x, -y) * matrix * translate(x, y)
 
 
@@ -396,7 +404,7 @@ def _view_box(element: ElementTree.Element) -> tuple[float, float, float, float]
         return None
     numbers = [float(number) for number in text.split()] if re.fullmatch(rf"{NUMBER}(?:\s+{NUMBER}){{3}}", text) else ()
     if not numbers or not all(map(is_number, numbers)):
-        raise ValueError(f"its viewBox, {text}")
+        raise Unread(Phrase("unread-view-box", text=text))
     x, y, width, height = numbers
     return (x, y, width, height) if width > 0 and height > 0 else None
 
@@ -430,7 +438,7 @@ def _framed(inner: ElementTree.Element, outer: ElementTree.Element, view: View, 
         sides.append(whole if length is None else length)
     box = _view_box(inner)
     if box and not all(sides):
-        raise ValueError("a view box in a frame without a size")
+        raise Unread(Phrase("unread-no-frame"))
     matrix = _fitted(inner, place, (sides[0], sides[1])) * view.matrix
     frames = view.frames
     if all(sides) and not view.style.is_overflowing:

@@ -23,6 +23,7 @@ from skg.reading.account import NOTE, Content, Entity, Written, by_layer
 from skg.reading.budget import check_vertices
 from skg.reading.curves import conic, is_number, spline_edges
 from skg.reading.svg_file import NOTES, NUMBER, SHAPES, UNREADABLE, Shown, SvgFile, View, length_of, property_of, tag_of
+from skg.reading.unread import Unread, reason_of
 
 #: Shapes that may have markers at their ends and corners.
 _MARKED = ("path", "line", "polyline", "polygon")
@@ -102,11 +103,11 @@ def _path(data: str) -> svgelements.Path:
     """Path data; what does not begin with a move, or does not end as it should, is a `ValueError`."""
     wrong = _NO_PATH.search(data)
     if wrong or data.strip() and data.strip()[0] not in "Mm":
-        raise ValueError(f"its path data, at {(wrong[0] if wrong else data.strip())[:10]}")
+        raise Unread(Phrase("unread-path-at", found=(wrong[0] if wrong else data.strip())[:10]))
     try:
         return _PathData(data)
     except UNREADABLE:
-        raise ValueError("its path data") from None
+        raise Unread(Phrase("unread-path")) from None
 
 
 def _points(element: ElementTree.Element) -> list[XY]:
@@ -114,7 +115,7 @@ def _points(element: ElementTree.Element) -> list[XY]:
     numbers = element.get("points", "").replace(",", " ")
     points = [float(number) for number in re.findall(NUMBER, numbers)]
     if re.sub(NUMBER, "", numbers).strip() or len(points) % 2:
-        raise ValueError("its points")
+        raise Unread(Phrase("unread-points"))
     return list(zip(points[::2], points[1::2], strict=True))
 
 
@@ -194,7 +195,7 @@ class _SvgCollector:
             check_vertices(len(outline), kind)
             edges = list(self.shapes.edges(outline))
         except UNREADABLE as error:
-            account.reason = account.reason or Phrase("reason-unread", detail=str(error) or type(error).__name__)
+            account.reason = account.reason or reason_of(error)
             account.is_odd = not item.view.hidden
             return
         if edges:
@@ -299,7 +300,7 @@ class _Shapes:
         point = self.matrix.point_in_matrix_space(point)
         x, y = point.x * self.factor, (self.height - point.y) * self.factor
         if not (is_number(x) and is_number(y)):
-            raise ValueError("a place of it is no number")
+            raise Unread(Phrase("reason-no-number"))
         return x, y
 
     def edges(self, path: Iterable[svgelements.PathSegment]) -> Iterator[Edge]:

@@ -231,7 +231,8 @@ def _run_emulator(name: str, text: str, skg80: str, mills: bool) -> bytes:
         if error:
             raise _failure(name, text, *error)
         ended = Finding("emulator-ended", emulator=skg80, code=done.returncode)
-        raise UserError((Finding("emulator", detail=last[0]) if last else ended).within(name))
+        said = Finding("emulator-says", emulator=skg80, code=done.returncode, detail=last[0]) if last else ended
+        raise UserError(said.within(name))
     return done.stdout
 
 

@@ -157,7 +157,7 @@ class Session:
                 if not path.exists() or path.read_bytes() != data:
                     write_bytes(str(path), data)
             except OSError as error:
-                raise UserError(Finding("page-not-kept", file=path.name, detail=of_system(error))) from None
+                raise UserError(Finding("page-not-kept", file=path.name, why=of_system(error))) from None
             self._kept = path
             return path
 
@@ -409,7 +409,7 @@ class Session:
             try:
                 data = path.read_bytes()
             except OSError as error:
-                self._say(Finding("shown-is-older", detail=of_system(error)).within(path.name))
+                self._say(Finding("shown-is-older", why=of_system(error)).within(path.name))
                 continue
             if data == self._data:
                 self._say(None)
@@ -631,7 +631,7 @@ class Session:
                 write_bytes(str(folder / name), data)
             except OSError as error:
                 done = Phrase("already-written", names=tuple(written)) if written else None
-                raise UserError(Finding("not-written", detail=of_system(error), done=done).within(name)) from None
+                raise UserError(Finding("not-written", why=of_system(error), done=done).within(name)) from None
             written.append(name)
         if "job" in kinds:
             self._note_saved(number)
@@ -698,7 +698,7 @@ def _writing(folder: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        raise UserError(Finding("not-written", detail=of_system(error), done=None).within(str(folder))) from None
+        raise UserError(Finding("not-written", why=of_system(error), done=None).within(str(folder))) from None
 
 
 def _stamp(path: Path) -> tuple[int, ...] | None:

@@ -13,7 +13,7 @@ from pathlib import Path
 from traceback import extract_tb
 
 from skg.cutting.progress import Progress
-from skg.errors import UserError
+from skg.errors import UserError, of_library
 from skg.garbage import collect_rarely
 from skg.messages.finding import Finding, Phrase
 from skg.messages.render import Medium, speech
@@ -173,8 +173,7 @@ def _answer(function: Callable, arguments: tuple) -> tuple:
 def mistake(error: Exception) -> Finding:
     """A mistake of this program, and where it was."""
     last = extract_tb(error.__traceback__)[-1]
-    text = " ".join(f"{type(error).__name__}: {error}".split())
-    return Finding("mistake", file=Path(last.filename).name, line=last.lineno, detail=text)
+    return Finding("mistake", file=Path(last.filename).name, line=last.lineno, what=of_library(error))
 
 
 def _teller(connection: Connection) -> Progress:
