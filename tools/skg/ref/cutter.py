@@ -57,10 +57,10 @@ class Cutter:
     # Moves ----------------------------------------------------------------------------------------------
 
     def _emit(self, segment: Segment) -> None:
-        if segment.is_arc:
-            self.tape.arc(segment.end, segment.centre, segment.radius < 0, segment.sweep)
-        else:
+        if segment.centre is None or segment.radius is None or segment.sweep is None:
             self.tape.line(segment.end)
+        else:
+            self.tape.arc(segment.end, segment.centre, segment.radius < 0, segment.sweep)
         if segment.is_arc or (segment.end - segment.start).length() > NEARLY:
             self.path.append(replace(segment, line=self.line))
         self.wire = segment.end

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TypeVar
 
 from skg.ref.cutter import Cutter
 from skg.ref.interpreter import Interpreter, Result, carry_out
@@ -57,6 +58,9 @@ class _RecordedMill(_Recorded, MillCutter):
     """The same of a milling machine's tool."""
 
 
+_Made = TypeVar("_Made", bound=_Recorded)
+
+
 def routes_of(program: str, runs: bool, mills: bool = False, is_drawn: bool = False) -> tuple[Routes, Result]:
     """Return the routes of a program, without R when they are to be as drawn, and its result.
 
@@ -64,18 +68,20 @@ def routes_of(program: str, runs: bool, mills: bool = False, is_drawn: bool = Fa
     """
     routes: Routes = []
 
+    def told(made: _Made) -> _Made:
+        made.routes, made.is_drawn = routes, is_drawn
+        return made
+
+    class Recording(Interpreter):
+        def _new_cutter(self) -> Cutter:
+            return told(_Recorded(self.tape, self.path))
+
+    class RecordingMill(MillInterpreter):
+        def _new_cutter(self) -> MillCutter:
+            return told(_RecordedMill(self.tape, self.path))
+
     def machine(watch: Watch) -> Interpreter:
-        kind, cutter, punch = (
-            (MillInterpreter, _RecordedMill, IsoPunch()) if mills else (Interpreter, _Recorded, Punch())
-        )
-
-        class Recording(kind):
-            def _new_cutter(self) -> Cutter:
-                made = cutter(self.tape, self.path)
-                made.routes, made.is_drawn = routes, is_drawn
-                return made
-
-        return Recording((), watch, punch)
+        return RecordingMill((), watch, IsoPunch()) if mills else Recording((), watch, Punch())
 
     result = carry_out(machine, program, None, runs)
     return routes, result

@@ -34,6 +34,12 @@ class Node:
     tangent: Point | None
     offset: Real
 
+    @property
+    def way(self) -> Point:
+        """The unit tangent, once it is known."""
+        assert self.tangent is not None
+        return self.tangent
+
 
 def mirrored(t: Point, chord: Point) -> Point:
     """A direction mirrored about a chord: the other end's tangent of the circle that begins with it."""
@@ -84,13 +90,13 @@ def within(a: Node, b: Node, passed: list[Node], tolerance: Real) -> bool:
     lies on that very line both arcs give the same answer: no close call.
     """
     chord = b.point - a.point
-    forwards = chord.dot(a.tangent + b.tangent)
+    forwards = chord.dot(a.way + b.way)
     near.note("passed node", forwards - MICRON, near.RELATIVE * max(chord.length(), real.ONE))
     if forwards <= MICRON:
         return False
-    c, d = corners(a.point, a.tangent, b.point, b.tangent)
+    c, d = corners(a.point, a.way, b.point, b.way)
     middle, across = (c + d) * (real.ONE / 2), d - c
-    ends = [(n.point, t, middle - n.point) for n, t in ((a, a.tangent), (b, -b.tangent))]
+    ends = [(n.point, t, middle - n.point) for n, t in ((a, a.way), (b, -b.way))]
     worst = max(excess(*ends[(n.point - middle).dot(across) > 0], n.point, tolerance) for n in passed)
     near.note("passed node", worst, PASSED_NEAR)
     return worst <= 0
@@ -156,7 +162,7 @@ class FittedCurve:
     def finish(self) -> None:
         """No more nodes: put out what is left."""
         self._advance(last=True)
-        if self.after:
+        if self.kept is not None:
             self._span(self.kept, self.after[-1])
 
     def _advance(self, last: bool) -> None:
@@ -166,7 +172,7 @@ class FittedCurve:
                 return
             b = self.nodes[1]
             if a.tangent is None:
-                a = replace(a, tangent=mirrored(b.tangent, b.point - a.point))
+                a = replace(a, tangent=mirrored(b.way, b.point - a.point))
             if self.tolerance:
                 self._hold(a, b)
             else:
@@ -175,7 +181,7 @@ class FittedCurve:
 
     def _hold(self, a: Node, b: Node) -> None:
         """Hold back the span to b, in the place of the one to a when it can be, else after that one."""
-        if self.after:
+        if self.kept is not None:
             if len(self.after) <= MOST_PASSED and within(self.kept, b, self.after, self.tolerance):
                 self.after.append(b)
                 return
@@ -197,12 +203,12 @@ class FittedCurve:
         return True
 
     def _span(self, a: Node, b: Node) -> None:
-        middle = joint(a.point, a.tangent, b.point, b.tangent)
-        self._arc(a.point, a.tangent, middle, b.offset)
+        middle = joint(a.point, a.way, b.point, b.way)
+        self._arc(a.point, a.way, middle, b.offset)
         if same_point(middle, b.point):
             self.feed(b.point, b.offset)  # which the route drops, unless the joint is the node before as well
         else:
-            self._arc(middle, mirrored(b.tangent, b.point - middle), b.point, b.offset)
+            self._arc(middle, mirrored(b.way, b.point - middle), b.point, b.offset)
 
     def _arc(self, p: Point, t: Point, q: Point, offset: Real) -> None:
         circle = self._circle(p, t, q)

@@ -6,6 +6,7 @@ Lengths are in millimetres, angles in degrees. Everything is solved directly fro
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import overload
 
 from skg.ref import near, real
 from skg.ref.fault import Code, Fault
@@ -166,6 +167,12 @@ def negate(v: Value) -> Value:
     return -v
 
 
+@overload
+def turned(v: Point, angle: Real, about: Point = ...) -> Point: ...
+@overload
+def turned(v: Circle, angle: Real, about: Point = ...) -> Circle: ...
+@overload
+def turned(v: Line, angle: Real, about: Point = ...) -> Line: ...
 def turned(v: Point | Circle | Line, angle: Real, about: Point = ORIGIN) -> Point | Circle | Line:
     """Turned counter-clockwise about a point."""
     c, s = real.cos(angle), real.sin(angle)
@@ -184,6 +191,12 @@ def turned(v: Point | Circle | Line, angle: Real, about: Point = ORIGIN) -> Poin
             return Line(n.x, n.y, v.g - v.normal.dot(about) + n.dot(about))
 
 
+@overload
+def mirrored(v: Point, s: Line) -> Point: ...
+@overload
+def mirrored(v: Circle, s: Line) -> Circle: ...
+@overload
+def mirrored(v: Line, s: Line) -> Line: ...
 def mirrored(v: Point | Circle | Line, s: Line) -> Point | Circle | Line:
     """Mirror image of a point, quasi-mirror image of a circle (same sense) or a line (reversed)."""
     match v:
@@ -198,6 +211,12 @@ def mirrored(v: Point | Circle | Line, s: Line) -> Point | Circle | Line:
             return Line(n.x, n.y, v.g - k * s.g)
 
 
+@overload
+def enlarged(v: Point, factor: Real) -> Point: ...
+@overload
+def enlarged(v: Circle, factor: Real) -> Circle: ...
+@overload
+def enlarged(v: Line, factor: Real) -> Line: ...
 def enlarged(v: Point | Circle | Line, factor: Real) -> Point | Circle | Line:
     """The drawing enlarged about O (SCALE)."""
     match v:
@@ -209,6 +228,10 @@ def enlarged(v: Point | Circle | Line, factor: Real) -> Point | Circle | Line:
             return Line(a, b, g * factor)
 
 
+@overload
+def parallel(v: Line, distance: Real) -> Line: ...
+@overload
+def parallel(v: Circle, distance: Real) -> Circle: ...
 def parallel(v: Curve, distance: Real) -> Curve:
     """`S:D`, `C:D`: moved to the right of travel. The radius is not checked."""
     match v:

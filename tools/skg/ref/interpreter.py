@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from operator import itemgetter
+from typing import Literal, overload
 
 from skg.errors import UserError
 from skg.messages.finding import Finding, Phrase
@@ -45,16 +47,16 @@ from skg.ref.statements import (
     Tol,
 )
 from skg.ref.tape import Punch
-from skg.ref.values import ORIGIN, X_AXIS, Y_AXIS, Point, Rotation, Value, canonical, kind
+from skg.ref.values import ORIGIN, X_AXIS, Y_AXIS, Circle, Line, Point, Rotation, Value, canonical, kind
 
 #: Levels of GOSUB.
 LEVELS = 8
 #: The greatest n of REP.
 MOST_COUNTED = 65535
 
-_PREDEFINED = {("O", 0): ORIGIN, ("X", 0): X_AXIS, ("Y", 0): Y_AXIS}
+_PREDEFINED: dict[tuple[str, int], Value] = {("O", 0): ORIGIN, ("X", 0): X_AXIS, ("Y", 0): Y_AXIS}
 
-_FUNCTIONS = {
+_FUNCTIONS: dict[str, Callable[[Real], Real]] = {
     "SQR": real.sqrt,
     "SIN": real.sin,
     "COS": real.cos,
@@ -253,6 +255,12 @@ class Interpreter:
             raise Fault(Code.KINDS)
         self.variables[key] = value
 
+    @overload
+    def _expect(self, e: Expression, wanted: Literal["D"]) -> Real: ...
+    @overload
+    def _expect(self, e: Expression, wanted: Literal["P"]) -> Point: ...
+    @overload
+    def _expect(self, e: Expression, wanted: Literal["S"]) -> Line: ...
     def _expect(self, e: Expression, wanted: str) -> Value:
         value = self.evaluate(e)
         if kind(value) != wanted:
@@ -266,7 +274,9 @@ class Interpreter:
     @property
     def offset(self) -> Real:
         """R; 0 when it has no value."""
-        return self.variables.get(("R", 0), ZERO)
+        value = self.variables.get(("R", 0), ZERO)
+        assert not isinstance(value, Point | Circle | Line | Rotation), "`_store` takes numbers alone"
+        return value
 
     # Statements -----------------------------------------------------------------------------------------
 
@@ -331,13 +341,12 @@ class Interpreter:
                 raise _End
 
     def _cut(self, right: bool, value: Value) -> None:
-        match kind(value):
-            case "D":
-                self.cutter.fillet(value, right)
-            case "T":
-                raise Fault(Code.KINDS)
-            case _:
-                self.cutter.element(value, right, self.offset)
+        if isinstance(value, Rotation):
+            raise Fault(Code.KINDS)
+        if isinstance(value, Point | Circle | Line):
+            self.cutter.element(value, right, self.offset)
+        else:
+            self.cutter.fillet(value, right)
 
     def _rep(self, s: Rep) -> None:
         copies = real.whole(self.number(s.count))
@@ -346,9 +355,9 @@ class Interpreter:
         rotation = self.evaluate(s.rotation)
         if copies == 0:
             raise Fault(Code.RANGE)
+        if isinstance(rotation, Point | Circle | Line):
+            raise Fault(Code.KINDS)
         if not isinstance(rotation, Rotation):
-            if kind(rotation) != "D":
-                raise Fault(Code.KINDS)
             rotation = Rotation(rotation, ORIGIN)
         self.cutter.repeat(copies, rotation.angle, rotation.centre, s.right, self.offset)
 
@@ -357,11 +366,12 @@ class Interpreter:
         self.cutter.node(node, tangent, self.offset)
 
     def _data(self) -> list[tuple[int, Expression]]:
+        statements = sorted(self.program.items(), key=itemgetter(0))
         return [
             (number, item)
-            for number in sorted(self.program)
-            if isinstance(self.program[number], Data)
-            for item in self.program[number].items
+            for number, statement in statements
+            if isinstance(statement, Data)
+            for item in statement.items
         ]
 
     def _read(self, name: Name) -> None:
@@ -389,9 +399,9 @@ class Interpreter:
 
     def _shown(self, e: Expression) -> str:
         value = self.evaluate(e)
-        if kind(value) == "D":
-            return real.show(value)
-        return f"({','.join(real.show(v) for v in canonical(value))})"
+        if isinstance(value, Point | Circle | Line | Rotation):
+            return f"({','.join(real.show(v) for v in canonical(value))})"
+        return real.show(value)
 
 
 def _call(name: str, value: Value) -> Value:
@@ -402,7 +412,7 @@ def _call(name: str, value: Value) -> Value:
         if index >= len(numbers):
             raise Fault(Code.KINDS)
         return numbers[index]
-    if kind(value) != "D":
+    if isinstance(value, Point | Circle | Line | Rotation):
         raise Fault(Code.KINDS)
     return real.in_range(_FUNCTIONS[name](value))
 

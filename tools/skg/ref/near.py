@@ -11,6 +11,10 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from mpmath import mpf as Real
 
 #: Relative distance to a threshold below which a decision is recorded.
 RELATIVE = 1e-6
@@ -54,14 +58,14 @@ def watching() -> Iterator[Watch]:
         _watch.reset(token)
 
 
-def note(kind: str, margin: object, limit: object) -> None:
+def note(kind: str, margin: Real | float, limit: Real | float) -> None:
     """Record a decision whose distance to its tie is below `limit`."""
     watch = _watch.get()
-    if watch is not None and abs(margin) < limit:
-        watch.calls.append(Near(kind, float(abs(margin)), watch.line))
+    if watch is not None and -limit < margin < limit:
+        watch.calls.append(Near(kind, abs(float(margin)), watch.line))
 
 
-def at_most(value: object, limit: object, kind: str) -> bool:
+def at_most(value: Real | float, limit: Real | float, kind: str) -> bool:
     """`value <= limit`, recorded when it is a close call. `limit` is positive."""
     if _watch.get() is not None:
         note(kind, (value - limit) / limit, RELATIVE)

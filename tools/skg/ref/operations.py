@@ -40,7 +40,8 @@ def _as_circle(p: Point) -> Circle:
     return Circle(p.x, p.y, ZERO)
 
 
-_Operation = Callable[[Value, Value], Value]
+#: Each takes values of the kinds in its key.
+_Operation = Callable[..., Value]
 
 OPERATIONS: dict[tuple[str, str, str], _Operation] = {
     (D, ",", D): Point,

@@ -70,8 +70,14 @@ def _line_number(token: Token) -> int:
     """The number of a line, however it is written; error 1 when it is not whole or more than 65535."""
     value = real.literal(token)
     if value != real.mp.floor(value) or value > LARGEST_NUMBER:
-        raise LineFault(Code.SYNTAX, token.start_pos)
+        raise LineFault(Code.SYNTAX, _column(token))
     return int(value)
+
+
+def _column(token: Token) -> int:
+    """The column of a word, from 0."""
+    assert token.start_pos is not None, "lark's lexer and `_check_head` tell it"
+    return token.start_pos
 
 
 class Tree(Transformer):
@@ -84,13 +90,12 @@ class Tree(Transformer):
 
     @v_args(inline=True)
     def number(self, token: Token) -> Number:
-        return Number(real.literal(token), token.start_pos)
+        return Number(real.literal(token), _column(token))
 
     @v_args(inline=True)
     def name(self, token: Token, subscript: Expression | None = None) -> Name:
-        if subscript is None:
-            subscript = whole(token[1:])
-        return Name(str(token[0]), subscript, token.start_pos)
+        number = whole(token[1:]) if subscript is None else subscript
+        return Name(str(token[0]), number, _column(token))
 
     @v_args(inline=True)
     def minus(self, _: Token, operand: Expression) -> Minus:
@@ -206,7 +211,7 @@ def _literal_check(token: Token) -> Token:
     try:
         real.literal(token)
     except Fault as fault:
-        raise LineFault(fault.code, token.start_pos) from None
+        raise LineFault(fault.code, _column(token)) from None
     return token
 
 
@@ -219,7 +224,7 @@ def _check_head(squeezed: str) -> None:
 
 def _subscript_check(token: Token) -> Token:
     if whole(token[1:]) > LAST_SUBSCRIPT:
-        raise LineFault(Code.RANGE, token.start_pos)
+        raise LineFault(Code.RANGE, _column(token))
     return token
 
 
@@ -312,7 +317,7 @@ def _earlier_fault(good: str, start: str, columns: list[int], dialect: Dialect) 
             raise LineFault(fault.code, columns[fault.column]) from None
 
 
-def _parse(text: str, start: str, dialect: Dialect) -> ProgramLine | Expression:
+def _parse(text: str, start: str, dialect: Dialect) -> object:
     if len(text) > LONGEST:
         raise LineFault(Code.MEMORY, LONGEST + 1)
     squeezed, columns = squeeze(text)
@@ -325,9 +330,10 @@ def _parse(text: str, start: str, dialect: Dialect) -> ProgramLine | Expression:
         return _parser(dialect).parse(squeezed, start=start)
     except UnexpectedInput as unexpected:
         place = unexpected.pos_in_stream
-        at_end = place is None or getattr(getattr(unexpected, "token", None), "type", "") == "$END"
-        _earlier_fault(squeezed if at_end else squeezed[:place], start, columns, dialect)
-        raise LineFault(Code.SYNTAX, columns[-1 if at_end else place]) from None
+        if getattr(getattr(unexpected, "token", None), "type", "") == "$END":
+            place = None
+        _earlier_fault(squeezed[:place], start, columns, dialect)
+        raise LineFault(Code.SYNTAX, columns[-1 if place is None else place]) from None
     except LineFault as fault:
         raise LineFault(fault.code, columns[fault.column]) from None
     except RecursionError:
@@ -337,6 +343,7 @@ def _parse(text: str, start: str, dialect: Dialect) -> ProgramLine | Expression:
 def parse_line(text: str, dialect: Dialect = WIRE) -> ProgramLine:
     """A line as typed; `LineFault` when it is not understood."""
     line = _parse(text, "line", dialect)
+    assert isinstance(line, ProgramLine)
     if line.number is None and isinstance(line.statement, Input):
         raise LineFault(Code.SYNTAX, len(text))
     if line.number is not None and len(listed(squeeze(text)[0], remark(text), dialect.words)) > LONGEST:
@@ -352,4 +359,6 @@ def remark(text: str) -> str | None:
 
 def parse_answer(text: str) -> Expression:
     """An answer to INPUT: one expression, which is the same in all dialects."""
-    return _parse(text, "expression", WIRE)
+    expression = _parse(text, "expression", WIRE)
+    assert isinstance(expression, Expression)
+    return expression

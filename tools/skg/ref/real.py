@@ -5,6 +5,8 @@ The firmware's range is kept: a number of 2^127 or more is error 5, one below 2^
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import mpmath
 
 from skg.ref import near
@@ -12,7 +14,10 @@ from skg.ref.fault import Code, Fault
 
 mp = mpmath.mp.clone()
 mp.dps = 50
-Real = mp.mpf
+if TYPE_CHECKING:
+    from mpmath import mpf as Real
+else:
+    Real = mp.mpf
 
 ZERO, ONE = Real(0), Real(1)
 LARGEST, SMALLEST = Real(2) ** 127, Real(2) ** -127

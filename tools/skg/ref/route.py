@@ -121,18 +121,20 @@ class Element:
 
     def passing(self, p: Point) -> Line:
         """A line's path, when the line is moved to pass a point."""
+        assert isinstance(self.nominal, Line)
         return replace(self.nominal, g=self.nominal.normal.dot(p) + self.offset)
 
 
 def offset_curve(nominal: Curve, offset: Real) -> Curve:
     """The wire's path beside a curve; error 7 when a circle's radius becomes zero or changes its sign."""
-    curve = parallel(nominal, offset)
-    if isinstance(nominal, Circle):
-        left = curve.r if nominal.r > 0 else -curve.r
-        near.note("offset", left, 1e-6)
-        if left <= NEARLY:
-            raise Fault(Code.OFFSET)
-    return curve
+    if isinstance(nominal, Line):
+        return parallel(nominal, offset)
+    circle = parallel(nominal, offset)
+    left = circle.r if nominal.r > 0 else -circle.r
+    near.note("offset", left, 1e-6)
+    if left <= NEARLY:
+        raise Fault(Code.OFFSET)
+    return circle
 
 
 def _chosen(meeting: Crossings, to_right: bool) -> Point:
@@ -249,7 +251,9 @@ class Route:
             self._enter(nominal, offset, curve, between)
         else:
             before = self.element
-            self.element = self._go_over(Element(nominal, offset, curve, before.start, before.drawn, between), right)
+            self.element = self._go_over(
+                before, Element(nominal, offset, curve, before.start, before.drawn, between), right
+            )
         self.curves += 1
         self.point = None
 
@@ -273,9 +277,9 @@ class Route:
 
     # Corners --------------------------------------------------------------------------------------------
 
-    def _go_over(self, f: Element, right: bool) -> Element:
-        """From the open element over the next corner to f; returns f as it is entered there."""
-        e, p, fillet = self.element, self.point, self.fillet
+    def _go_over(self, e: Element, f: Element, right: bool) -> Element:
+        """From the open element e over the next corner to f; returns f as it is entered there."""
+        p, fillet = self.point, self.fillet
         self.fillet = None
         drawn = p if p is not None else _chosen(crossings(e.nominal, f.nominal, TOUCH), right)
         arc = None if fillet is None else self._fillet(e, f, drawn, fillet)
@@ -338,7 +342,7 @@ class Route:
 
     def _circle_travel(self, e: Element, end: Point) -> Real:
         """Angle travelled on a circle from where it was entered; 0 for an end within 1 µm of that place."""
-        return ZERO if same_point(e.start, end) else sweep(e.curve, e.start, end)
+        return ZERO if same_point(e.start, end) else sweep(_circle(e.curve), e.start, end)
 
     def _travel(self, e: Element, end: Point, role: str, drawn: Point | None = None, is_named: bool = False) -> Point:
         """Put out e from where it was entered to its end; returns where the wire then is.
@@ -364,14 +368,15 @@ class Route:
         return end
 
     def _emit_arc(self, e: Element, end: Point, angle: Real, role: str) -> None:
-        centre, radius = e.curve.centre, e.curve.r
-        self.emit(Segment(e.start, end, role, e.nominal, e.offset, centre, radius, angle))
+        circle = _circle(e.curve)
+        self.emit(Segment(e.start, end, role, e.nominal, e.offset, circle.centre, circle.r, angle))
 
     # Ends -----------------------------------------------------------------------------------------------
 
     def close(self) -> None:
         """Through the closing corner and along the first element to where the route was entered."""
-        if self.first is None:
+        first = self.first
+        if first is None or self.element is None:
             raise Fault(Code.GEOMETRY)
         if self.first_point is not None:
             if self.point is not None and not same_point(self.point, self.first_point):
@@ -382,28 +387,29 @@ class Route:
                 raise Fault(Code.GEOMETRY)
             self.point = self.first_point
         elif self.point is not None:
-            check_on(self.first.nominal, self.point)
+            check_on(first.nominal, self.point)
         if self.curves == 1:
-            self._close_single()
-        elif self.point is None and self._ends_as_it_begins():
+            self._close_single(first)
+        elif self.point is None and self._ends_as_it_begins(first):
             if self.fillet is not None:
                 raise Fault(Code.GEOMETRY)
-            self._close_along(self.element)
+            self._close_along(first, self.element)
         else:
-            self._close_along(self._go_over(self.first, self.right))
+            self._close_along(first, self._go_over(self.element, first, self.right))
 
-    def _ends_as_it_begins(self) -> bool:
+    def _ends_as_it_begins(self, entered: Element) -> bool:
         """True if the last element written is the first again."""
         first, last = self.items[0].value, self.items[-1].value
         if isinstance(first, Point) or isinstance(last, Point):
-            return isinstance(first, Point) and isinstance(last, Point) and same_point(first, self.point)
-        return self._is_same(self.first, last)
+            if not (isinstance(first, Point) and isinstance(last, Point)) or self.point is None:
+                return False
+            return same_point(first, self.point)
+        return self._is_same(entered, last)
 
-    def _close_single(self) -> None:
+    def _close_single(self, first: Element) -> None:
         """A route of one circle, from the entry once round, by way of a last point if there is one."""
-        if isinstance(self.first.curve, Line):
+        if isinstance(first.curve, Line):
             raise Fault(Code.GEOMETRY)
-        first = self.first
         halfway = first.start if self.point is None else first.place(self.point)
         angle = self._circle_travel(first, halfway)
         if angle > 0:
@@ -415,12 +421,13 @@ class Route:
             return
         self._travel(replace(first, start=halfway), first.start, "cut")
 
-    def _close_along(self, e: Element) -> None:
+    def _close_along(self, first: Element, e: Element) -> None:
         """Along the last piece of the first element to the entry; error 6 when it lies behind."""
-        entry = self.first.start
-        if not _same_offset(e.offset, self.first.offset):
+        entry = first.start
+        if not _same_offset(e.offset, first.offset):
             raise Fault(Code.GEOMETRY)
         if isinstance(e.curve, Circle):
+            assert self.first_end is not None, "the first curve has been left"
             cut = _path_travel(e.curve, entry, self.first_end)
             overlap = _path_travel(e.curve, e.start, entry) + cut - 2 * real.mp.pi
             if not near.at_most(overlap * abs(e.curve.r), MICRON, "closing corner"):
@@ -432,9 +439,9 @@ class Route:
 
         Returns where the wire stays.
         """
-        if self.fillet is not None or self.first is None:
+        if self.fillet is not None or self.first is None or self.element is None:
             raise Fault(Code.GEOMETRY)
-        if len(self.items) >= 2 and self._ends_as_it_begins():
+        if len(self.items) >= 2 and self._ends_as_it_begins(self.first):
             self.close()
             return self.first.start
         if self.point is None:
@@ -444,27 +451,36 @@ class Route:
 
 def _moved_inwards(curve: Curve, radius: Real) -> Curve:
     """A curve moved to the fillet's side by its radius; error 6 where that leaves a circle 1 µm or less."""
+    if isinstance(curve, Line):
+        return parallel(curve, -radius)
     moved = parallel(curve, -radius)
-    if isinstance(curve, Circle) and near.at_most(moved.r if curve.r > 0 else -moved.r, MICRON, "fillet fits"):
+    if near.at_most(moved.r if curve.r > 0 else -moved.r, MICRON, "fillet fits"):
         raise Fault(Code.GEOMETRY)
     return moved
+
+
+def _circle(curve: Curve) -> Circle:
+    """The curve of an element that is travelled by its angle."""
+    assert isinstance(curve, Circle)
+    return curve
 
 
 def _drawn_travel(e: Element, end: Point, is_named: bool) -> Real:
     """Angle travelled on a circle as drawn, radians: for an end that lies within 1 µm of its entry 0, but where a
     point names it 2π."""
-    angle = sweep(e.nominal, e.drawn, end)
+    circle = _circle(e.nominal)
+    angle = sweep(circle, e.drawn, end)
     full = 2 * real.mp.pi
-    if near.at_most((full - angle) * abs(e.nominal.r), MICRON, "half a turn"):
+    if near.at_most((full - angle) * abs(circle.r), MICRON, "half a turn"):
         return full if is_named else ZERO
-    if is_named and near.at_most(angle * abs(e.nominal.r), MICRON, "half a turn"):
+    if is_named and near.at_most(angle * abs(circle.r), MICRON, "half a turn"):
         return full
     return angle
 
 
 def _move(e: Element, drawn: Point, offset: Point) -> Real:
     """Angle by which the offset moves a corner about a circle's centre, radians from -π to π along the travel."""
-    angle = sweep(e.nominal, drawn, offset)
+    angle = sweep(_circle(e.nominal), drawn, offset)
     return angle if angle <= real.mp.pi else angle - 2 * real.mp.pi
 
 

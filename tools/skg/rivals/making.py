@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import product
+from typing import Generic, TypeVar
 
 from lark import Token
 
@@ -16,6 +17,7 @@ from skg.rivals.plane import (
     TINY,
     ZERO,
     ExactCircle,
+    ExactCurve,
     ExactElement,
     ExactLine,
     ExactPoint,
@@ -37,22 +39,41 @@ from skg.rivals.plane import (
 LETTERS = {"D": "P", "X": "S", "Y": "C"}
 
 
+Value = TypeVar("Value", covariant=True)
+Other = TypeVar("Other")
+
+
 @dataclass(frozen=True)
-class Argument:
+class Argument(Generic[Value]):
     """An argument: its kind (N, D, X, Y), value and text with its sign, the sign if one is written, its place."""
 
     kind: str
-    value: Real | ExactElement
+    value: Value
     text: SkgText
     token: Token
     sign: Token | None = None
 
+    def of(self, what: type[Other]) -> Argument[Other]:
+        """The same, where it is an element of one class."""
+        assert isinstance(self.value, what)
+        return Argument(self.kind, self.value, self.text, self.token, self.sign)
+
+
+#: Arguments of each kind, and those of two.
+_Number = Argument[Real]
+_Point = Argument[ExactPoint]
+_Line = Argument[ExactLine]
+_Circle = Argument[ExactCircle]
+_Round = Argument[ExactPoint | ExactCircle]
+_Curve = Argument[ExactCurve]
+_Element = Argument[ExactElement]
+
 
 @dataclass(frozen=True)
-class NewElement:
+class NewElement(Generic[Value]):
     """An element, and SKG's expression for it."""
 
-    value: ExactElement
+    value: Value
     text: SkgText
 
 
@@ -65,20 +86,20 @@ class XYFrame:
     origin_text: SkgText | None = None
     angle_text: SkgText | None = None
 
-    def vector(self, x: Argument, y: Argument) -> NewElement:
+    def vector(self, x: _Number, y: _Number) -> NewElement[ExactPoint]:
         """A vector of the frame."""
         text = pair(x.text, y.text)
         if self.angle_text:
             text = join(text, "#", self.angle_text)
         return NewElement(rotated(ExactPoint(x.value, y.value), self.angle, ExactPoint(ZERO, ZERO)), text)
 
-    def point(self, x: Argument, y: Argument) -> NewElement:
+    def point(self, x: _Number, y: _Number) -> NewElement[ExactPoint]:
         """A point of the frame."""
         made = self.vector(x, y)
         text = join(made.text, "+", self.origin_text) if self.origin_text else made.text
         return NewElement(made.value + self.origin, text)
 
-    def turned(self, angle: Argument) -> tuple[Real, SkgText]:
+    def turned(self, angle: _Number) -> tuple[Real, SkgText]:
         """A direction angle of the frame, as one of the drawing."""
         if self.angle_text is None:
             return angle.value, angle.text
@@ -113,68 +134,68 @@ def _circle(centre: ExactPoint, r: Real) -> ExactCircle:
 
 
 @_form("D", "NN")
-def _point(frame: XYFrame, x: Argument, y: Argument) -> NewElement:
+def _point(frame: XYFrame, x: _Number, y: _Number) -> NewElement:
     return frame.point(x, y)
 
 
 @_form("D", "YN")
-def _point_of_circle(frame: XYFrame, circle: Argument, angle: Argument) -> NewElement:
+def _point_of_circle(frame: XYFrame, circle: _Circle, angle: _Number) -> NewElement:
     value, text = frame.turned(angle)
     place = join(centre_text(circle.text), "-", join(call("K3", circle.text), "#", text))
     return NewElement(circle.value.centre + direction(value) * abs(circle.value.r), place)
 
 
 @_form("D", "±X±X")
-def _crossing(_: XYFrame, first: Argument, second: Argument) -> NewElement:
+def _crossing(_: XYFrame, first: _Line, second: _Line) -> NewElement:
     return NewElement(crossings(first.value, second.value)[0], join(_unsigned(first), "*", _unsigned(second)))
 
 
-def _unsigned(argument: Argument) -> SkgText:
+def _unsigned(argument: _Element) -> SkgText:
     return minus(argument.text) if argument.sign else argument.text
 
 
 @_form("D", "±XY", "±YY")
-def _entering(_: XYFrame, runs: Argument, circle: Argument) -> NewElement:
+def _entering(_: XYFrame, runs: _Curve, circle: _Circle) -> NewElement:
     return NewElement(entering(runs.value, circle.value), join(runs.text, "*", circle.text))
 
 
 @_form("D", "Y±X")
-def _entering_by_line(frame: XYFrame, circle: Argument, line: Argument) -> NewElement:
+def _entering_by_line(frame: XYFrame, circle: _Circle, line: _Line) -> NewElement:
     return _entering(frame, line, circle)
 
 
 @_form("X", "NNN")
-def _line(frame: XYFrame, x: Argument, y: Argument, angle: Argument) -> NewElement:
+def _line(frame: XYFrame, x: _Number, y: _Number, angle: _Number) -> NewElement:
     made = frame.point(x, y)
     value, text = frame.turned(angle)
     return NewElement(ExactLine(made.value, direction(value)), join(sloping(text), ":", made.text))
 
 
 @_form("X", "DN", "±YN")
-def _line_at(frame: XYFrame, point: Argument, angle: Argument) -> NewElement:
+def _line_at(frame: XYFrame, point: _Round, angle: _Number) -> NewElement:
     value, text = frame.turned(angle)
     return NewElement(touching_line(point.value, direction(value)), join(sloping(text), ":", point.text))
 
 
 @_form("X", "D±XN", "±Y±XN")
-def _line_from_line(_: XYFrame, point: Argument, line: Argument, angle: Argument) -> NewElement:
+def _line_from_line(_: XYFrame, point: _Round, line: _Line, angle: _Number) -> NewElement:
     direction = rotated(line.value.way, angle.value, ExactPoint(ZERO, ZERO))
     return NewElement(touching_line(point.value, direction), join(join(line.text, "#", angle.text), ":", point.text))
 
 
 @_form("X", *_all(("D", "±Y"), 2))
-def _belt(_: XYFrame, e: Argument, f: Argument) -> NewElement:
+def _belt(_: XYFrame, e: _Round, f: _Round) -> NewElement:
     return NewElement(joining_line(e.value, f.value), join(e.text, ":", f.text))
 
 
 @_form("X", "±XN")
-def _parallel(_: XYFrame, line: Argument, left: Argument) -> NewElement:
+def _parallel(_: XYFrame, line: _Line, left: _Number) -> NewElement:
     value = ExactLine(line.value.point + line.value.way.left() * left.value, line.value.way)
     return NewElement(value, join(line.text, ":", minus(left.text)))
 
 
 @_form("X", "±X±X")
-def _bisector(_: XYFrame, first: Argument, second: Argument) -> NewElement:
+def _bisector(_: XYFrame, first: _Line, second: _Line) -> NewElement:
     crossing = crossings(first.value, second.value)[0]
     half = mp.degrees(turn(first.value.way, second.value.way)) / 2
     angle = join(pair(first.text, second.text), "/", SkgText("2"))
@@ -183,30 +204,30 @@ def _bisector(_: XYFrame, first: Argument, second: Argument) -> NewElement:
 
 
 @_form("Y", "NNN")
-def _circle_of_numbers(frame: XYFrame, x: Argument, y: Argument, r: Argument) -> NewElement:
+def _circle_of_numbers(frame: XYFrame, x: _Number, y: _Number, r: _Number) -> NewElement:
     made = frame.point(x, y)
     return NewElement(_circle(made.value, r.value), join(made.text, ":", minus(r.text)))
 
 
 @_form("Y", "DN")
-def _circle_about(_: XYFrame, centre: Argument, r: Argument) -> NewElement:
+def _circle_about(_: XYFrame, centre: _Point, r: _Number) -> NewElement:
     return NewElement(_circle(centre.value, r.value), join(centre.text, ":", minus(r.text)))
 
 
 @_form("Y", "DD")
-def _circle_through(_: XYFrame, centre: Argument, on: Argument) -> NewElement:
+def _circle_through(_: XYFrame, centre: _Point, on: _Point) -> NewElement:
     return NewElement(_circle(centre.value, (on.value - centre.value).size()), minus(join(centre.text, "/", on.text)))
 
 
 @_form("Y", "D±X")
-def _circle_at_line(_: XYFrame, centre: Argument, line: Argument) -> NewElement:
+def _circle_at_line(_: XYFrame, centre: _Point, line: _Line) -> NewElement:
     radius = call("ABS", pair(centre.text, _unsigned(line)))
     value = _circle(centre.value, abs(line.value.beside(centre.value)))
     return NewElement(value, join(centre.text, ":", SkgText(f"-{radius}", 0o55)))
 
 
 @_form("Y", "D±Y")
-def _circle_at_circle(_: XYFrame, centre: Argument, other: Argument) -> NewElement:
+def _circle_at_circle(_: XYFrame, centre: _Point, other: _Circle) -> NewElement:
     apart = (centre.value - other.value.centre).size()
     size = abs(other.value.r)
     if not other.sign:
@@ -218,14 +239,14 @@ def _circle_at_circle(_: XYFrame, centre: Argument, other: Argument) -> NewEleme
 
 
 @_form("Y", *_all(("D", "±X", "±Y"), 2, "N"))
-def _circle_at_two(_: XYFrame, e: Argument, f: Argument, r: Argument) -> NewElement:
+def _circle_at_two(_: XYFrame, e: _Element, f: _Element, r: _Number) -> NewElement:
     _circle(ExactPoint(ZERO, ZERO), r.value)
     centre = join(join(e.text, ":", r.text), "*", SkgText(f"-({join(f.text, ':', r.text)})", 0o55))
     return NewElement(touching_two(e.value, f.value, r.value), join(centre, ":", minus(r.text)))
 
 
 @_form("Y", *_all(("D", "±X", "±Y"), 3))
-def _circle_at_three(_: XYFrame, e: Argument, f: Argument, g: Argument) -> NewElement:
+def _circle_at_three(_: XYFrame, e: _Element, f: _Element, g: _Element) -> NewElement:
     value = touching_three(e.value, f.value, g.value)
     if e.kind == f.kind == g.kind == "D":
         halves = join(join(e.text, "#", f.text), "*", join(f.text, "#", g.text))
@@ -233,7 +254,7 @@ def _circle_at_three(_: XYFrame, e: Argument, f: Argument, g: Argument) -> NewEl
     return NewElement(value, literal(value))
 
 
-def shift(e: Argument, by: NewElement) -> SkgText:
+def shift(e: _Element, by: NewElement) -> SkgText:
     """PY: an element moved by a vector."""
     if e.kind == "D":
         return join(e.text, "+", by.text)

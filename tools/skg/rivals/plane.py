@@ -7,6 +7,7 @@ cross, by no more than that touch.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, overload
 
 import mpmath
 
@@ -14,7 +15,10 @@ from skg.messages.finding import Phrase
 
 mp = mpmath.mp.clone()
 mp.dps = 50
-Real = mp.mpf
+if TYPE_CHECKING:
+    from mpmath import mpf as Real
+else:
+    Real = mp.mpf
 
 ZERO = Real(0)
 #: 1 µm in mm.
@@ -28,7 +32,7 @@ SAME_WAY = Real("0.001")
 class PlaneError(Exception):
     """Geometry that there is not: the reason, `why`."""
 
-    def __init__(self, code: str, **values: object) -> None:
+    def __init__(self, code: str, **values: Any) -> None:  # noqa: ANN401
         super().__init__(code)
         self.why = Phrase(code, **values)
 
@@ -113,6 +117,9 @@ class ExactCircle:
 
 ExactCurve = ExactLine | ExactCircle
 ExactElement = ExactPoint | ExactCurve
+#: A row of linear equations a·x + b·y + k·R = m, and a place of their space.
+_Row = tuple[Real, Real, Real, Real]
+_Triple = tuple[Real, Real, Real]
 
 
 # Angles ------------------------------------------------------------------------------------------------------
@@ -134,6 +141,12 @@ def turn(u: ExactPoint, v: ExactPoint) -> Real:
     return mp.pi if angle <= -mp.pi else angle
 
 
+@overload
+def rotated(e: ExactPoint, angle: Real, about: ExactPoint) -> ExactPoint: ...
+@overload
+def rotated(e: ExactLine, angle: Real, about: ExactPoint) -> ExactLine: ...
+@overload
+def rotated(e: ExactCircle, angle: Real, about: ExactPoint) -> ExactCircle: ...
 def rotated(e: ExactElement, angle: Real, about: ExactPoint) -> ExactElement:
     """Turned about a point, counter-clockwise; circles keep their sense."""
     d = direction(angle)
@@ -150,6 +163,12 @@ def rotated(e: ExactElement, angle: Real, about: ExactPoint) -> ExactElement:
             return ExactCircle(about + spin(centre - about), r)
 
 
+@overload
+def moved(e: ExactPoint, by: ExactPoint) -> ExactPoint: ...
+@overload
+def moved(e: ExactLine, by: ExactPoint) -> ExactLine: ...
+@overload
+def moved(e: ExactCircle, by: ExactPoint) -> ExactCircle: ...
 def moved(e: ExactElement, by: ExactPoint) -> ExactElement:
     """Moved by a vector."""
     match e:
@@ -161,6 +180,12 @@ def moved(e: ExactElement, by: ExactPoint) -> ExactElement:
             return ExactCircle(centre + by, r)
 
 
+@overload
+def mirrored(e: ExactPoint, mirror: ExactLine) -> ExactPoint: ...
+@overload
+def mirrored(e: ExactLine, mirror: ExactLine) -> ExactLine: ...
+@overload
+def mirrored(e: ExactCircle, mirror: ExactLine) -> ExactCircle: ...
 def mirrored(e: ExactElement, mirror: ExactLine) -> ExactElement:
     """Mirror image; a line's arrow is mirrored with it, a circle keeps its sense."""
 
@@ -184,6 +209,10 @@ def foot(p: ExactPoint, line: ExactLine) -> ExactPoint:
     return line.point + line.way * line.ahead(p)
 
 
+@overload
+def parallel(curve: ExactLine, to_right: Real) -> ExactLine: ...
+@overload
+def parallel(curve: ExactCircle, to_right: Real) -> ExactCircle: ...
 def parallel(curve: ExactCurve, to_right: Real) -> ExactCurve:
     """Moved to the right of its way; a circle's radius is not looked at."""
     if isinstance(curve, ExactLine):
@@ -223,9 +252,11 @@ def joining_line(e: ExactPoint | ExactCircle, f: ExactPoint | ExactCircle) -> Ex
     line = belt_line(e, f)
     if line is not None:
         return line
-    circle = e if isinstance(e, ExactCircle) else f
-    touch = next((g for g in (e, f) if isinstance(g, ExactPoint)), None) or touching_point(e, f)
-    return ExactLine(touch, way_at(circle, touch))
+    if isinstance(e, ExactCircle):
+        touch = f if isinstance(f, ExactPoint) else touching_point(e, f)
+        return ExactLine(touch, way_at(e, touch))
+    assert isinstance(f, ExactCircle), "between two points there is a line"
+    return ExactLine(e, way_at(f, e))
 
 
 # Places on a curve -------------------------------------------------------------------------------------------
@@ -289,14 +320,19 @@ def crossings(e: ExactCurve, f: ExactCurve, touch: Real = NEAR) -> tuple[ExactPo
 
     `PlaneError` when they miss each other by more than near, or never cross.
     """
-    if isinstance(e, ExactLine) and isinstance(f, ExactLine):
-        sine = e.way.cross(f.way)
-        if abs(sine) <= TINY:
-            raise PlaneError("rival-parallel")
-        return (e.point + e.way * ((f.point - e.point).cross(f.way) / sine),)
-    if isinstance(e, ExactCircle) and isinstance(f, ExactCircle):
-        return _of_circles(e, f, touch)
-    line, circle = (e, f) if isinstance(e, ExactLine) else (f, e)
+    if isinstance(e, ExactLine):
+        return (_of_lines(e, f),) if isinstance(f, ExactLine) else _of_line(e, f, touch)
+    return _of_line(f, e, touch) if isinstance(f, ExactLine) else _of_circles(e, f, touch)
+
+
+def _of_lines(e: ExactLine, f: ExactLine) -> ExactPoint:
+    sine = e.way.cross(f.way)
+    if abs(sine) <= TINY:
+        raise PlaneError("rival-parallel")
+    return e.point + e.way * ((f.point - e.point).cross(f.way) / sine)
+
+
+def _of_line(line: ExactLine, circle: ExactCircle, touch: Real) -> tuple[ExactPoint, ...]:
     middle = foot(circle.centre, line)
     d, r = (middle - circle.centre).size(), abs(circle.r)
     if d > r + NEAR:
@@ -351,8 +387,7 @@ def touching_two(e: ExactElement, f: ExactElement, r: Real) -> ExactCircle:
 
     Its centre lies r to the right of each.
     """
-    beside = [_right_of(g, r) for g in (e, f)]
-    circles = [ExactCircle(centre, -r) for centre in crossings(*beside)]
+    circles = [ExactCircle(centre, -r) for centre in crossings(_right_of(e, r), _right_of(f, r))]
     if len(circles) == 1:
         return circles[0]
     return min(circles, key=lambda c: sweep(c, _touch(c, e), _touch(c, f)))
@@ -378,7 +413,7 @@ def touching_three(e: ExactElement, f: ExactElement, g: ExactElement) -> ExactCi
     Lines, and differences of two of the former, are linear in (c, R); what is left is one more line, or a quadratic.
     """
     given = (e, f, g)
-    origin = next((h.point if isinstance(h, ExactLine) else getattr(h, "centre", h)) for h in given)
+    origin = e.point if isinstance(e, ExactLine) else e.centre if isinstance(e, ExactCircle) else e
     rounds = [
         (h.centre - origin, h.r) if isinstance(h, ExactCircle) else (h - origin, ZERO)
         for h in given
@@ -410,10 +445,10 @@ def touching_three(e: ExactElement, f: ExactElement, g: ExactElement) -> ExactCi
     return circles[0]
 
 
-def _solutions(rows: list[tuple[Real, ...]], rounds: list[tuple[ExactPoint, Real]]) -> list[tuple[Real, Real, Real]]:
+def _solutions(rows: list[_Row], rounds: list[tuple[ExactPoint, Real]]) -> list[_Triple]:
     """Solve the first two rows, then the third row or the first circle's quadratic, for (x, y, R)."""
     rows = [
-        tuple(value / scale for value in row)
+        (row[0] / scale, row[1] / scale, row[2] / scale, row[3] / scale)
         for row in rows
         if (scale := mp.sqrt(row[0] ** 2 + row[1] ** 2 + row[2] ** 2)) > TINY
     ]
@@ -426,22 +461,27 @@ def _solutions(rows: list[tuple[Real, ...]], rounds: list[tuple[ExactPoint, Real
         return []
     # The point of the line of solutions that is nearest to the origin.
     n1, n2 = (a1, b1, k1), (a2, b2, k2)
-    base = tuple((m1 * u + m2 * v) / square for u, v in zip(_cross(n2, along), _cross(along, n1), strict=True))
+    x, y, s = ((m1 * u + m2 * v) / square for u, v in zip(_cross(n2, along), _cross(along, n1), strict=True))
+    base = x, y, s
     if len(rows) > 2:
         a, b, k, m = rows[2]
         slope = a * along[0] + b * along[1] + k * along[2]
         if abs(slope) <= TINY * mp.sqrt(square):
             return []
         t = (m - a * base[0] - b * base[1] - k * base[2]) / slope
-        return [tuple(p + t * q for p, q in zip(base, along, strict=True))]
+        return [_ahead(base, along, t)]
     centre, r = rounds[0]
     x, y, s = base[0] - centre.x, base[1] - centre.y, base[2] + r
     u, v, w = along
     roots = _roots(u * u + v * v - w * w, 2 * (x * u + y * v - s * w), x * x + y * y - s * s)
-    return [tuple(p + t * q for p, q in zip(base, along, strict=True)) for t in roots]
+    return [_ahead(base, along, t) for t in roots]
 
 
-def _cross(a: tuple[Real, ...], b: tuple[Real, ...]) -> tuple[Real, ...]:
+def _ahead(base: _Triple, along: _Triple, t: Real) -> _Triple:
+    return base[0] + t * along[0], base[1] + t * along[1], base[2] + t * along[2]
+
+
+def _cross(a: _Triple, b: _Triple) -> _Triple:
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 

@@ -58,6 +58,18 @@ class Hung:
         """A point."""
         return isinstance(self.value, ExactPoint)
 
+    @property
+    def point(self) -> ExactPoint:
+        """The point of a pin."""
+        assert isinstance(self.value, ExactPoint)
+        return self.value
+
+    @property
+    def circle(self) -> ExactCircle:
+        """The circle of a pulley."""
+        assert isinstance(self.value, ExactCircle)
+        return self.value
+
 
 @dataclass
 class Leg:
@@ -74,11 +86,17 @@ class Leg:
         """Longer than near."""
         return self.whole or not same_point(self.start, self.end)
 
+    @property
+    def circle(self) -> ExactCircle:
+        """The circle of an arc."""
+        assert isinstance(self.curve, ExactCircle)
+        return self.curve
+
     def angle(self) -> Real:
         """The angle that an arc sweeps, radians."""
         if self.whole:
             return 2 * mp.pi
-        return sweep(self.curve, self.start, self.end) if self.is_travelled else ZERO
+        return sweep(self.circle, self.start, self.end) if self.is_travelled else ZERO
 
     def has(self, p: ExactPoint) -> bool:
         """True if a point of the curve lies between start and end (near)."""
@@ -109,7 +127,7 @@ def is_same(a: Hung, b: Hung) -> bool:
     """One item, hung twice."""
     if a.is_pin != b.is_pin:
         return False
-    return same_point(a.value, b.value) if a.is_pin else same_circle(a.value, b.value)
+    return same_point(a.point, b.point) if a.is_pin else same_circle(a.circle, b.circle)
 
 
 def _merged(a: Hung, b: Hung) -> Hung:
@@ -164,7 +182,7 @@ def mirrored_items(items: list[Hung], image: Callable[[Hung], Hung]) -> list[Hun
 # The pieces between two of them --------------------------------------------------------------------------------
 
 
-def between(a: Hung, b: Hung, index: int) -> tuple[ExactPoint, ExactPoint, list[Part]]:
+def between(a: Hung, b: Hung, index: int | None) -> tuple[ExactPoint, ExactPoint, list[Part]]:
     """The points at which the belt leaves a and reaches b, and the pieces between; `index`: the place to blame.
 
     The table of xy.md, section 4.
@@ -175,23 +193,23 @@ def between(a: Hung, b: Hung, index: int) -> tuple[ExactPoint, ExactPoint, list[
         arc = _connecting(a, b, a.arc)
         return arc.start, arc.end, [arc]
     if a.is_pin and b.is_pin:
-        line = ExactLine(a.value, (b.value - a.value).unit())
-        return a.value, b.value, [Leg(line, a.value, b.value)]
+        line = ExactLine(a.point, (b.point - a.point).unit())
+        return a.point, b.point, [Leg(line, a.point, b.point)]
     for pin, circle in ((a, b), (b, a)):
         if pin.is_pin:
-            if on(circle.value, pin.value):
-                return pin.value, pin.value, []
-            if (pin.value - circle.value.centre).size() < abs(circle.value.r):
+            if on(circle.circle, pin.point):
+                return pin.point, pin.point, []
+            if (pin.point - circle.circle.centre).size() < abs(circle.circle.r):
                 raise TextFault(index, "rival-point-inside")
     try:
-        line = belt_line(a.value, b.value)
+        belt = belt_line(a.value, b.value)
     except PlaneError:
         raise TextFault(index, "rival-no-belt") from None
-    if line is None:
-        touch = touching_point(a.value, b.value)
+    if belt is None:
+        touch = touching_point(a.circle, b.circle)
         return touch, touch, [Pin(touch, join(a.text, "*", b.text))]
-    leaves, joins = (h.value if h.is_pin else touching_point(h.value, line) for h in (a, b))
-    return leaves, joins, [Leg(line, leaves, joins, join(a.text, ":", b.text))]
+    leaves, joins = (h.point if h.is_pin else touching_point(h.circle, belt) for h in (a, b))
+    return leaves, joins, [Leg(belt, leaves, joins, join(a.text, ":", b.text))]
 
 
 def _connecting(a: Hung, b: Hung, arc: Arc) -> Leg:
@@ -203,29 +221,31 @@ def _connecting(a: Hung, b: Hung, arc: Arc) -> Leg:
         if size <= TINY:
             raise PlaneError("rival-radius-zero")
         step = size if clockwise else -size
-        beside = [parallel(h.value, step) for h in (a, b)]
-        if any(abs(circle.r) <= TINY for circle in beside):
+        around_a, around_b = (parallel(h.circle, step) for h in (a, b))
+        if any(abs(circle.r) <= TINY for circle in (around_a, around_b)):
             raise PlaneError("rival-circle-itself")
-        circles = [ExactCircle(centre, -step) for centre in crossings(*beside)]
+        circles = [ExactCircle(centre, -step) for centre in crossings(around_a, around_b)]
     except PlaneError as error:
         raise TextFault(arc.token.start_pos, "rival-arc-short", why=error.why) from None
 
     def stretch(circle: ExactCircle) -> Leg:
-        return Leg(circle, touching_point(a.value, circle), touching_point(b.value, circle))
+        return Leg(circle, touching_point(a.circle, circle), touching_point(b.circle, circle))
 
     best = min(map(stretch, circles), key=Leg.angle)
     first, second = (join(h.text, ":", text if clockwise else minus(text)) for h in (a, b))
     right = SkgText(f"-({second})", 0o55) if clockwise else second
     best.text = join(join(first, "*", right), ":", minus(text) if clockwise else text)
-    if len(circles) > 1 and not same_point(crossing_that_turns(*beside, left=not clockwise), best.curve.centre):
-        best.text = literal(best.curve)
+    if len(circles) > 1:
+        turning = crossing_that_turns(around_a, around_b, left=not clockwise)
+        if not same_point(turning, best.circle.centre):
+            best.text = literal(best.curve)
     return best
 
 
 # The contour ---------------------------------------------------------------------------------------------------
 
 
-def contour(items: list[Hung], closes: int) -> tuple[list[Part], list[int]]:
+def contour(items: list[Hung], closes: int | None) -> tuple[list[Part], list[int]]:
     """The parts of the closed belt, from where the first item is reached, and which of them begins each item.
 
     `closes` is the place of the ←.
@@ -235,7 +255,7 @@ def contour(items: list[Hung], closes: int) -> tuple[list[Part], list[int]]:
             raise TextFault(closes, "rival-one-point")
         if items[0].arc:
             raise TextFault(items[0].arc.token.start_pos, "rival-arc-two-circles")
-        circle = items[0].value
+        circle = items[0].circle
         return [Leg(circle, circle.centre, circle.centre, items[0].text, whole=True)], [0]
     follows = [
         between(
@@ -251,9 +271,9 @@ def contour(items: list[Hung], closes: int) -> tuple[list[Part], list[int]]:
         begins.append(len(parts))
         leaves, _, after = follows[index]
         if item.is_pin:
-            parts.append(Pin(item.value, item.text, item.arc))
+            parts.append(Pin(item.point, item.text, item.arc))
         else:
-            parts.append(Leg(item.value, follows[index - 1][1], leaves, item.text))
+            parts.append(Leg(item.circle, follows[index - 1][1], leaves, item.text))
         parts += after
     curves = [part for part in parts if isinstance(part, Leg)]
     if len(curves) == 1:
@@ -296,15 +316,16 @@ def _fillet(e: ExactCurve, f: ExactCurve, radius: Real, angle: Real) -> Leg:
     if mp.pi - abs(angle) <= SAME_WAY:
         raise PlaneError("rival-straight-back")
     signed = radius if angle > 0 else -radius
-    inner = [parallel(curve, -signed) for curve in (e, f)]
-    for curve, moved in zip((e, f), inner, strict=True):
-        if isinstance(curve, ExactCircle) and (moved.r if curve.r > 0 else -moved.r) <= NEAR:
-            raise PlaneError("rival-smaller-circle")
-    arc = ExactCircle(crossing_that_turns(*inner, left=angle > 0), signed)
-    ends = [
+    for curve in (e, f):
+        if isinstance(curve, ExactCircle):
+            inner = parallel(curve, -signed).r
+            if (inner if curve.r > 0 else -inner) <= NEAR:
+                raise PlaneError("rival-smaller-circle")
+    arc = ExactCircle(crossing_that_turns(parallel(e, -signed), parallel(f, -signed), left=angle > 0), signed)
+    start, end = (
         touching_point(arc, curve) if isinstance(curve, ExactLine) else touching_point(curve, arc) for curve in (e, f)
-    ]
-    return Leg(arc, *ends)
+    )
+    return Leg(arc, start, end)
 
 
 def stretches(parts: list[Part]) -> list[Leg]:

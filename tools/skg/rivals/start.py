@@ -65,11 +65,10 @@ def wire_corner(e: ExactCurve, f: ExactCurve, p: ExactPoint, offset: Real) -> Ex
         return p - way_at(e, p).left() * offset
     if mp.pi - angle <= SAME_WAY:
         return None
-    paths = [parallel(curve, offset) for curve in (e, f)]
-    if any(isinstance(path, ExactCircle) and path.r * curve.r <= 0 for path, curve in zip(paths, (e, f), strict=True)):
+    if any(isinstance(curve, ExactCircle) and parallel(curve, offset).r * curve.r <= 0 for curve in (e, f)):
         return None
     try:
-        return nearest_crossing(*paths, p)
+        return nearest_crossing(parallel(e, offset), parallel(f, offset), p)
     except PlaneError:
         return None
 
@@ -97,13 +96,14 @@ def written(parts: list[Part], entry: Entry, name: Namer) -> list[str]:
         # It begins with the arc of a fillet.
         begin = name(None, first.start)
         circle = name(None, first.curve)
-        body = [Leg(first.curve, first.start, first.end, circle), Pin(first.end, name(None, first.end))]
+        body: list[Part] = [Leg(first.curve, first.start, first.end, circle), Pin(first.end, name(None, first.end))]
         return [str(begin), *_texts([*body, *parts[index + 1 :], *parts[:index]], name), str(begin)]
     before = parts[index - 1]
     rest = [*parts[index:], *parts[:index]]
     if first.whole:
         begin = before.text if isinstance(before, Pin) else name(None, first.start)
-        return [*_texts([Pin(first.start, begin), first], name), str(begin)]
+        around: list[Part] = [Pin(first.start, begin), first]
+        return [*_texts(around, name), str(begin)]
     if isinstance(before, Pin) and before.arc is None:
         begin = _short(before.text, before.point, name)
         rest.pop()
@@ -127,9 +127,9 @@ def written(parts: list[Part], entry: Entry, name: Namer) -> list[str]:
 def _joint(before: Leg, first: Leg) -> SkgText | None:
     """Touching point of a belt line and a circle, in their own terms."""
     line, circle = (before, first) if isinstance(before.curve, ExactLine) else (first, before)
-    if isinstance(circle.curve, ExactLine) or isinstance(line.curve, ExactCircle) or line.text is None:
+    if isinstance(circle.curve, ExactLine) or isinstance(line.curve, ExactCircle):
         return None
-    return join(line.text, "*", circle.text)
+    return join(line.text, "*", circle.text) if line.text and circle.text else None
 
 
 def _texts(parts: list[Part], name: Namer) -> list[str]:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cache
 from importlib.resources import files
+from typing import Any
 
 from lark import Lark, Token, Tree, UnexpectedToken
-from lark.lexer import Lexer
+from lark.lexer import Lexer, LexerState
 from lark.parsers.lalr_interactive_parser import InteractiveParser
 
 from skg.messages.finding import Finding, Phrase
@@ -20,13 +21,14 @@ from skg.rivals.plane import PlaneError, Real
 class TextFault(Exception):
     """An error in a text, and the index of its character."""
 
-    def __init__(self, index: int, code: str, **values: object) -> None:
+    def __init__(self, index: int | None, code: str, **values: Any) -> None:  # noqa: ANN401
         super().__init__(code)
+        assert index is not None, "the tokens of both languages have their places"
         self.index = index
         self.finding = Finding(code, **values)
 
     @classmethod
-    def of(cls, index: int, error: PlaneError) -> TextFault:
+    def of(cls, index: int | None, error: PlaneError) -> TextFault:
         """The geometry that there is not, at the character that asks for it."""
         return cls(index, error.why.code, **dict(error.why.values))
 
@@ -50,12 +52,14 @@ def placing(text: str) -> Iterator[None]:
 class _NoLexer(Lexer):
     """The tokens are fed one by one."""
 
+    __future_interface__ = 1
+
     def __init__(self, _: object) -> None:
         pass
 
-    def lex(self, data: object) -> Iterator[Token]:
+    def lex(self, lexer_state: LexerState, parser_state: object) -> Iterator[Token]:
         """None of its own."""
-        return iter(data)
+        return iter(())
 
 
 @cache
@@ -101,11 +105,11 @@ def figure(tree: Tree, name: Callable[[Tree], Figure]) -> Figure:
     """The value of an expression, and its text; `name` knows the operands that are no literals."""
     match tree.data:
         case "literal":
-            return _literal(tree.children[0])
+            return _literal(token_of(tree.children[0]))
         case "inner":
-            return figure(tree.children[1], name)
+            return figure(tree_of(tree.children[1]), name)
         case "minus":
-            value, text = figure(tree.children[1], name)
+            value, text = figure(tree_of(tree.children[1]), name)
             return -value, minus(text)
         case "sum" | "product":
             return _joined(tree, name)
@@ -120,7 +124,8 @@ def _literal(token: Token) -> Figure:
 
 def _joined(tree: Tree, name: Callable[[Tree], Figure]) -> Figure:
     left, sign, right = tree.children
-    (a, a_text), (b, b_text) = figure(left, name), figure(right, name)
+    (a, a_text), (b, b_text) = figure(tree_of(left), name), figure(tree_of(right), name)
+    sign = token_of(sign)
     match sign.type:
         case "PLUS":
             return a + b, join(a_text, "+", b_text)
@@ -135,4 +140,22 @@ def _joined(tree: Tree, name: Callable[[Tree], Figure]) -> Figure:
 
 def first_token(tree: Tree) -> Token:
     """The first token of a tree's text."""
-    return min(tree.scan_values(lambda value: isinstance(value, Token)), key=lambda token: token.start_pos)
+    tokens = map(token_of, tree.scan_values(lambda value: isinstance(value, Token)))
+    return min(tokens, key=lambda token: token.start_pos or 0)
+
+
+def token_of(child: Tree | Token) -> Token:
+    """A child that is a token."""
+    assert isinstance(child, Token)
+    return child
+
+
+def sign_of(children: Sequence[Tree | Token | None]) -> Token | None:
+    """The sign that stands first among children, if one is written."""
+    return token_of(children[0]) if children and children[0] is not None else None
+
+
+def tree_of(child: Tree | Token) -> Tree:
+    """A child that is a tree."""
+    assert isinstance(child, Tree)
+    return child

@@ -8,9 +8,20 @@ from dataclasses import dataclass, field, replace
 from lark import Token, Tree
 
 from skg.rivals.formula import SkgText, call, decimal, literal, minus
-from skg.rivals.plane import TINY, ZERO, ExactCircle, ExactLine, ExactPoint, PlaneError, Real, nearest, same_point
+from skg.rivals.plane import (
+    TINY,
+    ZERO,
+    ExactCircle,
+    ExactCurve,
+    ExactLine,
+    ExactPoint,
+    PlaneError,
+    Real,
+    nearest,
+    same_point,
+)
 from skg.rivals.program import LAST_SUBSCRIPT, STATEMENT, SkgProgram, packed, too_long
-from skg.rivals.statement import Figure, TextFault, figure, first_token, placing
+from skg.rivals.statement import Figure, TextFault, figure, first_token, placing, token_of, tree_of
 from skg.rivals.tekhtran_contour import ContourItem, cut_items
 from skg.rivals.tekhtran_making import FORMS, Matrix, Operand, normal
 from skg.rivals.tekhtran_text import latin, statements
@@ -101,8 +112,9 @@ class _TekhtranMachine:
 
     def _name_of_number(self, tree: Tree) -> Figure:
         if tree.data == "coordinate":
-            return self._coordinate(tree.children[2], tree.children[4])
-        named = self.named[tree.children[0]]
+            return self._coordinate(tree_of(tree.children[2]), token_of(tree.children[4]))
+        named = self.named[token_of(tree.children[0])]
+        assert isinstance(named.value, Real)
         return named.value, SkgText(named.skg)
 
     def _coordinate(self, index: Tree, name: Token) -> Figure:
@@ -155,6 +167,7 @@ class _TekhtranMachine:
         kind = target.type.removeprefix(NEW)
         skg = self._skg_name(target, kind) if kind in LETTERS else ""
         if skg:
+            assert not isinstance(made.value, tuple)
             self.program.assign(skg, made.text, made.value)
         self.kinds[str(target)] = kind
         self.named[str(target)] = _Named(kind, made.value, self._z(made.value) if made.z is None else made.z, skg)
@@ -185,6 +198,7 @@ class _TekhtranMachine:
             self.plane = HORIZONTAL
         else:
             plane = self.named[children[1]].value
+            assert isinstance(plane, tuple)
             if abs(plane[2]) <= TINY:
                 raise PlaneError("rival-upright-plane")
             self.plane = plane
@@ -217,10 +231,21 @@ class _TekhtranMachine:
 
     def _place(self, children: list) -> _Wire:
         """A place in a statement."""
-        operands = [self.operand(child) for child in children if isinstance(child, Tree) or child.type == "POINT"]
-        if len(operands) == 1:
-            return _Wire(operands[0].value, str(operands[0].text))
-        return _Wire(ExactPoint(operands[0].value, operands[1].value))
+        for child in children:
+            if isinstance(child, Token) and child.type == "POINT":
+                return _Wire(self._point(child), self.named[child].skg)
+        x, y, *_ = (self.number(child)[0] for child in children if isinstance(child, Tree))
+        return _Wire(ExactPoint(x, y))
+
+    def _point(self, name: Token) -> ExactPoint:
+        value = self.named[name].value
+        assert isinstance(value, ExactPoint)
+        return value
+
+    def _curve(self, name: Token) -> ExactCurve:
+        value = self.named[name].value
+        assert isinstance(value, ExactCurve)
+        return value
 
     def _started(self, token: Token) -> _Wire:
         if self.wire is None:
@@ -238,7 +263,7 @@ class _TekhtranMachine:
 
     def _approach(self, children: list) -> None:
         wire = self._started(children[0])
-        self._move(children[0], _Wire(nearest(wire.place, self.named[children[2]].value)))
+        self._move(children[0], _Wire(nearest(wire.place, self._curve(children[2]))))
 
     def _move(self, token: Token, to: _Wire) -> None:
         """Straight to a place, on the wire's centre: a point more in an open CUT."""
@@ -292,7 +317,8 @@ class _TekhtranMachine:
         for token in tokens:
             match token.type:
                 case "POINT" | "LINE" | "CIRCLE":
-                    items.append(ContourItem(self.named[token].value, self.named[token].skg, token))
+                    value = self._point(token) if token.type == "POINT" else self._curve(token)
+                    items.append(ContourItem(value, self.named[token].skg, token))
                 case "POCHS":
                     items[-1] = items[-1].backwards()
                 case "KHB" | "KHM" | "UB" | "UM":

@@ -12,6 +12,7 @@ from lark import Token
 from skg.rivals.formula import SkgText, minus
 from skg.rivals.plane import (
     ExactCircle,
+    ExactCurve,
     ExactElement,
     ExactLine,
     ExactPoint,
@@ -46,6 +47,18 @@ class ContourItem:
     def is_point(self) -> bool:
         """No curve."""
         return isinstance(self.value, ExactPoint)
+
+    @property
+    def point(self) -> ExactPoint:
+        """The point that it is."""
+        assert isinstance(self.value, ExactPoint)
+        return self.value
+
+    @property
+    def curve(self) -> ExactCurve:
+        """The line or circle that it is."""
+        assert not isinstance(self.value, ExactPoint)
+        return self.value
 
     @property
     def text(self) -> SkgText:
@@ -100,7 +113,7 @@ def _without_doubles(items: list[ContourItem]) -> list[ContourItem]:
 
 
 def _is_double(a: ContourItem, b: ContourItem) -> bool:
-    return a.is_point and b.is_point and same_point(a.value, b.value)
+    return a.is_point and b.is_point and same_point(a.point, b.point)
 
 
 def _is_whole_circle(items: list[ContourItem]) -> bool:
@@ -111,21 +124,21 @@ def _is_whole_circle(items: list[ContourItem]) -> bool:
 
 def _corner(before: ContourItem, item: ContourItem) -> _Corner:
     """The place where an item begins; of two points: the second."""
-    for point, curve in ((item, before), (before, item)):
-        if point.is_point:
-            if not curve.is_point and not on(curve.value, point.value):
-                raise TextFault(point.token.start_pos, "rival-not-on", point=str(point.token), curve=str(curve.token))
-            return _Corner(point.value)
+    for named, other in ((item, before), (before, item)):
+        if named.is_point:
+            if not other.is_point and not on(other.curve, named.point):
+                raise TextFault(named.token.start_pos, "rival-not-on", point=str(named.token), curve=str(other.token))
+            return _Corner(named.point)
     try:
-        points = crossings(before.value, item.value)
+        points = crossings(before.curve, item.curve)
         if len(points) > 1 and item.choice is None:
             raise PlaneError("rival-two")
-        place = chosen(points, item.choice)
+        place = points[0] if item.choice is None else chosen(points, item.choice)
     except PlaneError as error:
         raise TextFault(
             item.token.start_pos, "rival-corner", before=str(before.token), item=str(item.token), why=error.why
         ) from None
-    e, f = (-each.value if each.is_backwards else each.value for each in (before, item))
+    e, f = (-each.curve if each.is_backwards else each.curve for each in (before, item))
     return _Corner(place, crossing_text(e, f, place, (SkgText(before.name), SkgText(item.name))))
 
 
@@ -144,10 +157,10 @@ def _stretches(items: list[ContourItem], starts: list[_Corner], ends: list[_Corn
     following = [*items[1:], items[0]]
     for item, start, end, after in zip(items, starts, ends, following, strict=True):
         if not item.is_point:
-            pieces.append(Leg(item.value, start.place, end.place))
+            pieces.append(Leg(item.curve, start.place, end.place))
         elif after.is_point:
-            direction = (after.value - item.value).unit()
-            pieces.append(Leg(ExactLine(item.value, direction), item.value, after.value))
+            direction = (after.point - item.point).unit()
+            pieces.append(Leg(ExactLine(item.point, direction), item.point, after.point))
     return pieces
 
 
@@ -155,7 +168,7 @@ def _check_entry(item: ContourItem, stretches: list[Leg], wire: ExactPoint, offs
     """True if BACK will find the place where the wire entered the first item."""
     last, first, second = stretches[-1], stretches[0], stretches[1]
     if item.is_point:
-        if inner_corner(last.curve, first.curve, item.value, offset):
+        if inner_corner(last.curve, first.curve, item.point, offset):
             raise TextFault(item.token.start_pos, "rival-inner-corner")
         return
     if not (first.is_travelled and first.has(nearest(wire, first.curve))):

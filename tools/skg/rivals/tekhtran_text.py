@@ -69,6 +69,7 @@ def tokens(text: str) -> Iterator[Token]:
     index = end = 0
     while index < len(text):
         token = _TOKEN.match(text, index)
+        assert token, "it takes any character"
         start, index = index, token.end()
         word = token[0]
         match token.lastgroup:

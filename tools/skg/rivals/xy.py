@@ -12,7 +12,7 @@ from skg.rivals.plane import TINY, ExactElement, ExactLine, ExactPoint, PlaneErr
 from skg.rivals.program import LAST_LINE, LAST_SUBSCRIPT, SkgProgram, packed, plain, too_long
 from skg.rivals.route import Arc, Hung, area, contour, mirrored_items, without_doubles
 from skg.rivals.start import entry, repeated, written
-from skg.rivals.statement import Figure, TextFault, figure, first_token, placing
+from skg.rivals.statement import Figure, TextFault, figure, first_token, placing, sign_of, token_of, tree_of
 from skg.rivals.xy_text import statements
 
 #: SKG's name for a bare name, and the first of the translator's own.
@@ -79,12 +79,12 @@ class _Machine:
         return figure(tree, self._variable)
 
     def _variable(self, tree: Tree) -> Figure:
-        index, value = self.variables[tree.children[0]]
+        index, value = self.variables[token_of(tree.children[0])]
         return value, SkgText(f"A{index}")
 
-    def element(self, tree: Tree, sign: Token | None = None) -> Argument:
+    def element(self, tree: Tree, sign: Token | None = None) -> Argument[ExactElement]:
         """An element by its name, and its sign."""
-        token = tree.children[0]
+        token = token_of(tree.children[0])
         letter, subscript = token[0], token[1:] or str(BARE)
         text = SkgText(LETTERS[letter] + subscript)
         value = self.elements[token]
@@ -92,11 +92,12 @@ class _Machine:
             return Argument(letter, -value, minus(text), token, sign)
         return Argument(letter, value, text, token, sign)
 
-    def argument(self, tree: Tree) -> Argument:
+    def argument(self, tree: Tree) -> Argument[Real | ExactElement]:
         """An argument of ⊕."""
-        *sign, inner = tree.children
+        *sign, last = tree.children
+        inner = tree_of(last)
         if inner.data in KINDS:
-            return self.element(inner, sign[0] if sign else None)
+            return self.element(inner, sign_of(sign))
         value, text = self.number(inner)
         return Argument("N", value, text, first_token(inner))
 
@@ -110,7 +111,7 @@ class _Machine:
         try:
             getattr(self, f"_{tree.data}")(tree.children)
         except PlaneError as error:
-            raise TextFault.of(tree.children[0].start_pos, error) from None
+            raise TextFault.of(token_of(tree.children[0]).start_pos, error) from None
 
     def _make(self, children: list) -> None:
         letter, (given, target) = children[1], _trees(children)
@@ -125,7 +126,7 @@ class _Machine:
         self._store(target, form(self.frame, *arguments))
 
     def _store(self, target: Tree, made: NewElement) -> None:
-        token = target.children[0]
+        token = token_of(target.children[0])
         name = LETTERS[token[0]] + (token[1:] or str(BARE))
         self.elements[str(token)] = made.value
         if len(token) == 1:
@@ -138,20 +139,21 @@ class _Machine:
         if mirror.kind != "X":
             raise TextFault(children[1].start_pos, "rival-mirror")
         e = self.element(element)
-        self._store(target, NewElement(mirrored(e.value, mirror.value), image(e.value, e.text, mirror.text)))
+        made = NewElement(mirrored(e.value, mirror.of(ExactLine).value), image(e.value, e.text, mirror.text))
+        self._store(target, made)
 
     def _move(self, children: list) -> None:
         element, x, y, target = _trees(children)
         e, by = self.element(element), self.frame.vector(self._number_argument(x), self._number_argument(y))
         self._store(target, NewElement(moved(e.value, by.value), shift(e, by)))
 
-    def _number_argument(self, tree: Tree) -> Argument:
+    def _number_argument(self, tree: Tree) -> Argument[Real]:
         value, text = self.number(tree)
         return Argument("N", value, text, first_token(tree))
 
     def _rotate(self, children: list) -> None:
         element, centre, tree, target = _trees(children)
-        e, about = self.element(element), self.element(centre)
+        e, about = self.element(element), self.element(centre).of(ExactPoint)
         angle, text = self._rotation(children[5], tree)
         self._store(target, NewElement(rotated(e.value, angle, about.value), spin(e.text, about.text, text)))
 
@@ -162,7 +164,7 @@ class _Machine:
 
     def _frame_at(self, children: list) -> None:
         origin, angle = _trees(children)
-        element = self.element(origin)
+        element = self.element(origin).of(ExactPoint)
         self._take_frame(element.value, self.name_own(element.text, element.value), angle)
 
     def _frame(self, children: list) -> None:
@@ -172,13 +174,11 @@ class _Machine:
         self._take_frame(origin, None if x == y == 0 else self.name_own(None, origin), angle)
 
     def _take_frame(self, origin: ExactPoint, text: SkgText | None, tree: Tree) -> None:
-        angle, written_angle = self.number(tree)
-        if angle == 0:
-            written_angle = None
-        elif "A" in written_angle.text:
+        angle, angle_text = self.number(tree)
+        if "A" in angle_text.text and angle != 0:
             # The variable may change.
-            written_angle = self.name_own(written_angle, angle)
-        self.frame = XYFrame(origin, angle, text, written_angle)
+            angle_text = self.name_own(angle_text, angle)
+        self.frame = XYFrame(origin, angle, text, None if angle == 0 else angle_text)
 
     def _assign(self, children: list) -> None:
         value, text = self.number(children[0])
@@ -206,18 +206,18 @@ class _Machine:
         self.routes += 1
         sense = "COUNTER-CLOCKWISE" if enclosed > 0 else "CLOCKWISE"
         self.program.body.append(f"REM ROUTE {self.routes}, {sense}")
-        start = entry(parts, self.element(near).value, distance)
-        cuts = None
+        start = entry(parts, self.element(near).of(ExactPoint).value, distance)
+        cuts, ends = None, ["BACK"]
         if copies and len(hung) == len(items):
             is_open = copies.goes_round or hung[0].is_pin and hung[copies.items - 1].is_pin
             cuts = repeated(parts, begins[copies.items], start, self.name_own) if is_open else None
-        last = [copies.statement, "BACK"] if cuts else ["BACK"]
+            ends = [copies.statement, "BACK"] if cuts else ends
         cuts = cuts or written(parts, start, self.name_own)
         self.program.body += [
             f"FROM {self.element(hole).text}",
             f"R={'0' if distance == 0 else text}",
             *packed("CUT", cuts),
-            *last,
+            *ends,
         ]
 
     def items(self, trees: list[Tree]) -> tuple[list[Hung], _Copies | None]:
@@ -231,15 +231,16 @@ class _Machine:
             copies = None
             match tree.data:
                 case "point" | "circle":
-                    e = self.element(tree.children[-1], tree.children[0] if len(tree.children) > 1 else None)
+                    e = self.element(tree_of(tree.children[-1]), sign_of(tree.children[:-1]))
+                    assert not isinstance(e.value, ExactLine), "the grammar has points and circles here"
                     items.append(Hung(e.value, e.text, token))
                 case "number":
-                    value, text = self.number(tree.children[0])
+                    value, text = self.number(tree_of(tree.children[0]))
                     items[-1] = _with_arc(items[-1], Arc(value, text, token))
                 case "mirrored":
-                    mirror = self.element(tree.children[3])
+                    mirror = self.element(tree_of(tree.children[3])).of(ExactLine)
 
-                    def mirror_item(item: Hung, mirror: Argument = mirror) -> Hung:
+                    def mirror_item(item: Hung, mirror: Argument[ExactLine] = mirror) -> Hung:
                         return Hung(mirrored(item.value, mirror.value), join(item.text, "/", mirror.text), item.token)
 
                     items = mirrored_items(items, mirror_item)
@@ -248,14 +249,14 @@ class _Machine:
         return items, copies
 
     def _copied(self, items: list[Hung], tree: Tree) -> tuple[list[Hung], _Copies]:
-        word, count, _, sign, centre, _, tree_of_angle, _ = tree.children
-        times = int(count)
+        first, count, _, sign, centre, _, turned, _ = tree.children
+        word, times = token_of(first), int(token_of(count))
         if times < 2:
             raise TextFault(word.start_pos, "rival-times")
         if times * len(items) > LAST_LINE:
             raise TextFault(word.start_pos, "rival-memory")
-        about = self.element(centre)
-        angle, text = self._rotation(sign, tree_of_angle)
+        about = self.element(tree_of(centre)).of(ExactPoint)
+        angle, text = self._rotation(sign_of([sign]), tree_of(turned))
         copies = list(items)
         for copy in range(1, times):
             whole = (

@@ -23,10 +23,12 @@ SYMBOLS = {"⊕": "MAKE", "(+)": "MAKE", "⇒": "NAME_IT", "=>": "NAME_IT", "φ"
            "*": "TIMES", "←": "CLOSE", "<-": "CLOSE", "-": "MINUS", "+": "PLUS", "/": "SLASH", "(": "LPAR", ")": "RPAR",
            ",": "COMMA", ";": "SEMICOLON"}  # fmt: skip
 _NUMBER, _POINT, _LINE, _CIRCLE = (Phrase(f"rival-{kind}") for kind in ("number", "point", "line", "circle"))
-SHOWN = {"MAKE": "⊕", "NAME_IT": "⇒", "ROUTE": "φ", "TIMES": "×", "CLOSE": "←", "MINUS": "-", "PLUS": "+", "SLASH": "/",
-         "LPAR": "(", "RPAR": ")", "COMMA": ",", "SEMICOLON": ";", "WHOLE": _NUMBER, "DECIMAL": _NUMBER,
-         "VARIABLE": Phrase("rival-variable"), "BARE_D": _POINT, "OTHER_D": _POINT, "BARE_X": _LINE, "OTHER_X": _LINE,
-         "BARE_Y": _CIRCLE, "OTHER_Y": _CIRCLE}  # fmt: skip
+SHOWN: dict[str, str | Phrase] = {
+    "MAKE": "⊕", "NAME_IT": "⇒", "ROUTE": "φ", "TIMES": "×", "CLOSE": "←", "MINUS": "-", "PLUS": "+", "SLASH": "/",
+    "LPAR": "(", "RPAR": ")", "COMMA": ",", "SEMICOLON": ";", "WHOLE": _NUMBER, "DECIMAL": _NUMBER,
+    "VARIABLE": Phrase("rival-variable"), "BARE_D": _POINT, "OTHER_D": _POINT, "BARE_X": _LINE, "OTHER_X": _LINE,
+    "BARE_Y": _CIRCLE, "OTHER_Y": _CIRCLE,
+}  # fmt: skip
 
 _TOKEN = re.compile(
     r"(?P<symbol>\(\+\)|\(/\)|<-|=>|[⊕⇒φ×*←\-+/(),;])|(?P<number>[0-9]+(?:\.[0-9]+)?)"
@@ -64,6 +66,7 @@ def tokens(text: str) -> Iterator[Token]:
     index = end = 0
     while index < len(folded):
         token = _TOKEN.match(folded, index)
+        assert token, "it takes any character"
         start, index = index, token.end()
         word = token[0]
         match token.lastgroup:

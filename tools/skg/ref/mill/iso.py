@@ -49,12 +49,12 @@ def pair(first: str, second: str, values: Grid) -> str:
 class IsoPunch(Punch):
     """Blocks in the order of punching, and what the board knows of the machine.
 
-    `position` and `height` (whole µm) are where the tool is, None where that is not known; `cutting` and `travel` the
+    `tool` and `height` (whole µm) are where the tool is, None where that is not known; `cutting` and `travel` the
     heights of Z, `feed` and `down` those of F (None: no such statement yet); `punched` is the last F on the tape.
     """
 
     line_end: str = "\r\n"
-    position: Grid | None = None
+    tool: Grid | None = None
     height: int | None = None
     cutting: int | None = None
     travel: int = TRAVEL
@@ -71,7 +71,7 @@ class IsoPunch(Punch):
 
     def _begin(self) -> None:
         """A new tape: nothing is known of the machine, and its first block will be number 1."""
-        self.position = self.height = self.punched = None
+        self.tool = self.height = self.punched = None
         self.number = 0
 
     def block(self, words: str) -> None:
@@ -96,9 +96,9 @@ class IsoPunch(Punch):
         """At the travel height to a place."""
         self.up()
         end = grid(p)
-        if self.position != end:
+        if self.tool != end:
             self.block(f"G0{pair('X', 'Y', end)}")
-            self.position = end
+            self.tool = end
 
     def lower(self) -> None:
         """Down to the cutting height, once there has been a Z."""
@@ -115,22 +115,23 @@ class IsoPunch(Punch):
         self.punched = feed
 
     def _line(self, end: Grid) -> None:
-        if end != self.position:
+        if end != self.tool:
             self._cut(f"G1{pair('X', 'Y', end)}", self.feed)
-            self.position = end
+            self.tool = end
 
     def arc(self, end: Point, centre: Point, clockwise: bool, sweep: Real) -> None:
         """An arc of a true sweep in radians, as a control will understand it (milling.md, section "Arcs")."""
-        last, middle = grid(end), grid(centre)
-        to_centre = middle[0] - self.position[0], middle[1] - self.position[1]
+        last, middle, here = grid(end), grid(centre), self.tool
+        assert here is not None, "a route is entered from its FROM point"
+        to_centre = middle[0] - here[0], middle[1] - here[1]
         for length in to_centre:
             millimetres(length)
-        if last == self.position:
+        if last == here:
             near.note("sweep", sweep - real.mp.pi, 1e-6)
             if sweep > real.mp.pi and to_centre != (0, 0):
                 self._arc(last, to_centre, clockwise)
             return
-        dx, dy = last[0] - self.position[0], last[1] - self.position[1]
+        dx, dy = last[0] - here[0], last[1] - here[1]
         chord, square = dx * dx + dy * dy, to_centre[0] ** 2 + to_centre[1] ** 2
         if sweep <= real.mp.pi:
             near.note("flat arc", chord * chord / (4 * square or 1) - 1, 1e-9)
@@ -148,7 +149,7 @@ class IsoPunch(Punch):
 
     def _arc(self, end: Grid, to_centre: Grid, clockwise: bool) -> None:
         self._cut(f"G{2 if clockwise else 3}{pair('X', 'Y', end)}{pair('I', 'J', to_centre)}", self.feed)
-        self.position = end
+        self.tool = end
 
     # Stops ----------------------------------------------------------------------------------------------
 
