@@ -246,7 +246,8 @@ def windows_folder() -> Path:
 def sums() -> Path:
     """The SHA-256 of every other file, as `sha256sum -c` takes them."""
     made = DIST / "SHA256SUMS"
-    files = sorted(file for file in DIST.iterdir() if file != made)
+    # (a wheel's build that was broken off leaves a folder)
+    files = sorted(file for file in DIST.iterdir() if file.is_file() and file != made)
     made.write_text("".join(f"{hashlib.sha256(file.read_bytes()).hexdigest()}  {file.name}\n" for file in files))
     return made
 
