@@ -94,7 +94,6 @@ def contours_of(edges: list[Edge]) -> list[Contour]:
     return [merged(contour) for contour in chain(edges, 0.005).contours]
 
 
-@cache
 def program_of(make: Callable[[], Drawing], offset: float = 0.0, **wishes: object) -> str:
     contours = contours_of(edges_of(make))
     wanted = CutSettings(offset=offset, side=str(wishes.get("side", "auto")), reverse=bool(wishes.get("reverse")))
