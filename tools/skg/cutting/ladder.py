@@ -133,7 +133,7 @@ def _straight_lead(planned: PlannedContour, _trouble: _Trouble) -> PlannedContou
 
 
 def _own_path(planned: PlannedContour, _trouble: _Trouble) -> PlannedContour | None:
-    """The wire's own way, without R; `NoRoom` where there is none."""
+    """The wire's own path, without R; `NoRoom` where there is none."""
     return planned.along_wire() if _may_be_traced(planned) else None
 
 
@@ -181,7 +181,7 @@ class _Ladder:
         self._leave({number: refusal.too_short(fit) for number, fit in fits.items()})
 
     def tame(self) -> None:
-        """Give those their own way whose wire would run off for a thousand R and more: it would be followed and
+        """Give those their own path whose wire would run off for a thousand R and more: it would be followed and
         compared first."""
         no_room: dict[int, NoRoom] = {}
         for number, planned in self.contours.items():
@@ -208,7 +208,7 @@ class _Ladder:
             numbers = again if 0 < 2 * len(again) < len(self.contours) else list(self.contours)
 
     def around_tips(self, result: CutResult) -> CutResult:
-        """The tape of which the wire goes around the tips that it would run far past, with its own way, where that is
+        """The tape of which the wire goes around the tips that it would run far past, with its own path, where that is
         right; else the one that there is."""
         around: dict[int, PlannedContour] = {}
         for number, planned in self.contours.items():
@@ -312,7 +312,7 @@ def _is_into(trouble: _Trouble) -> bool:
 
 
 def _no_room(planned: PlannedContour) -> NoRoom | None:
-    """Return why the wire has no way of its own around a contour; None where it has one."""
+    """Return why the wire has no path of its own around a contour; None where it has one."""
     try:
         _own_path(planned, [])
     except NoRoom as why:

@@ -37,7 +37,7 @@ _UNEVEN = 5e-4
 _SMOOTH = 1e-3
 #: A tip is a spike where its parallels meet farther than this from it, in R.
 SPIKE = 10.0
-#: A closed way begins within an edge, this part of it from its ends where it is short.
+#: A closed path begins within an edge, this part of it from its ends where it is short.
 _INSIDE = 0.2
 
 
@@ -94,7 +94,7 @@ class _Beside:
         return length - self.radius, (way[0] / length, way[1] / length)
 
     def piece(self, start: XY, end: XY) -> Edge:
-        """The wire's way along it."""
+        """The wire's path along it."""
         if self.centre is None:
             return Edge(start, end, entity=self.edge.entity)
         first, last = (atan2(*reversed(minus(place, self.centre))) for place in (start, end))
@@ -140,7 +140,7 @@ def _tangent(start: XY, angle: float, end: XY, entity: int) -> Edge:
 
 
 def wire_path(contour: Contour, r: float) -> tuple[Edge, ...]:
-    """Return the way of the wire along a closed contour, in its direction, R (mm) to the right of it.
+    """Return the path of the wire along a closed contour, in its direction, R (mm) to the right of it.
 
     Where it does not get everywhere but to corners, or nowhere at all, it raises `NoRoom`.
     """
@@ -156,18 +156,18 @@ def wire_path(contour: Contour, r: float) -> tuple[Edge, ...]:
     ring = _ring(edges, r)
     runs = _runs(edges, ring, r)
     corners = [_corner(one, other, near, r) for (one, _), (other, near) in pairwise([*runs[-1:], *runs])]
-    way = [beside.piece(*ends) for (beside, _), ends in zip(runs, pairwise([*corners, *corners[:1]]), strict=True)]
+    path = [beside.piece(*ends) for (beside, _), ends in zip(runs, pairwise([*corners, *corners[:1]]), strict=True)]
     while len(runs) > 1:
-        short = min(range(len(way)), key=lambda k: way[k].length)
-        if way[short].length >= _LEAST:
-            _refuse_slots(contour, way, r)
-            return tuple(way)
+        short = min(range(len(path)), key=lambda k: path[k].length)
+        if path[short].length >= _LEAST:
+            _refuse_slots(contour, path, r)
+            return tuple(path)
         # (its neighbours meet instead)
-        del runs[short], corners[short], way[short]
+        del runs[short], corners[short], path[short]
         behind = short % len(runs)
         corners[behind] = _corner(runs[behind - 1][0], *runs[behind], r)
         for k in (behind - 1, behind):
-            way[k] = runs[k][0].piece(corners[k], corners[(k + 1) % len(runs)])
+            path[k] = runs[k][0].piece(corners[k], corners[(k + 1) % len(runs)])
     raise NoRoom(contour.edges[0].start, _NONE)
 
 
@@ -197,7 +197,7 @@ def _lines_and_arcs(contour: Contour) -> list[Edge]:
 
 
 def _ring(edges: list[Edge], r: float) -> np.ndarray:
-    """The wire's way roughly: places along it, the last one the first."""
+    """The wire's path roughly: places along it, the last one the first."""
     area = _area(edges)
     is_ccw = area.exterior.is_ccw
     near = [ring for edge in edges for ring in _near(edge, max(abs(r) - _HAIR, abs(r) / 2))]
@@ -338,18 +338,18 @@ def _on_bisector(centre: XY, start: XY, end: XY) -> XY:
     return centre[0] + part * way[0], centre[1] + part * way[1]
 
 
-def uncut(contour: Contour, way: Sequence[Edge], r: float) -> tuple[float, XY]:
+def uncut(contour: Contour, path: Sequence[Edge], r: float) -> tuple[float, XY]:
     """Largest distance (mm) of the wire, R beside a contour, from it in corners that it cannot follow, and the
     place."""
     places = contour.points()
-    off = shapely.distance(shapely.points(places), _path(way)) - abs(r)
+    off = shapely.distance(shapely.points(places), _as_line(path)) - abs(r)
     worst = int(np.argmax(off))
     return float(off[worst]), places[worst]
 
 
-def _path(way: Sequence[Edge]) -> shapely.LineString:
-    """A way as chords."""
-    return shapely.LineString([place for edge in way for place in (*_chords(edge), edge.end)])
+def _as_line(path: Sequence[Edge]) -> shapely.LineString:
+    """A path as chords."""
+    return shapely.LineString([place for edge in path for place in (*_chords(edge), edge.end)])
 
 
 def sharpest(contour: Contour, r: float) -> tuple[float, XY] | None:
@@ -364,11 +364,11 @@ def sharpest(contour: Contour, r: float) -> tuple[float, XY] | None:
     return abs(r) * (1 / max(cos(turns[corner] / 2), _SMOOTH) - 1), contour.edges[corner].start
 
 
-def _refuse_slots(contour: Contour, way: Sequence[Edge], r: float) -> None:
+def _refuse_slots(contour: Contour, path: Sequence[Edge], r: float) -> None:
     """Raise `NoRoom` where the wire passes over more than a corner: it is nowhere beside an edge that is too long, or
     beside chords that are too long together."""
-    path = _path(way)
-    shapely.prepare(path)
+    line = _as_line(path)
+    shapely.prepare(line)
     # (around an edge's end it is R away from that, and so much further in by all that it may be off)
     ends = sqrt(3 * abs(r) * _OFF)
     for edges in _walls(contour.edges):
@@ -376,7 +376,7 @@ def _refuse_slots(contour: Contour, way: Sequence[Edge], r: float) -> None:
         if length <= (_SLOT if edge.is_line else _BEND) * abs(r):
             continue
         places = [edge.samples if edge.nodes else np.array([*_chords(edge), edge.end]) for edge in edges]
-        if not shapely.dwithin(path, _without_ends(np.concatenate(places), ends), abs(r) + _OFF):
+        if not shapely.dwithin(line, _without_ends(np.concatenate(places), ends), abs(r) + _OFF):
             raise NoRoom(edge.at(0.5), _SLOTTED)
 
 
@@ -409,14 +409,14 @@ def _walls(edges: Sequence[Edge]) -> Iterator[list[Edge]]:
     yield wall
 
 
-def roomy_place(way: tuple[Edge, ...], place: XY) -> XY:
-    """A place that a closed way goes around: the given one, else the one that is farthest from the way; in a circle
+def roomy_place(path: tuple[Edge, ...], place: XY) -> XY:
+    """A place that a closed path goes around: the given one, else the one that is farthest from the path; in a circle
     beside that, since from a centre the ROM goes to the +X side (language.md, section 4.2)."""
-    if way[0].is_circle and way[0].centre is not None:
-        (x, y), radius = way[0].centre, way[0].radius
+    if path[0].is_circle and path[0].centre is not None:
+        (x, y), radius = path[0].centre, path[0].radius
         far = distance((x, y), place)
         return place if far < radius else (x + (place[0] - x) * radius / far / 2, y + (place[1] - y) * radius / far / 2)
-    corners = [corner for edge in way for corner in _chords(edge)]
+    corners = [corner for edge in path for corner in _chords(edge)]
     area = shapely.Polygon(corners if len(corners) > 2 else [])
     if area.is_empty or area.contains(shapely.Point(place)):
         return place
@@ -424,16 +424,16 @@ def roomy_place(way: tuple[Edge, ...], place: XY) -> XY:
     return x, y
 
 
-def part_between(way: tuple[Edge, ...], first: XY, last: XY | None = None) -> tuple[Edge, ...]:
-    """A closed way from the place on it nearest to `first` on: to the one nearest to `last`, or back to where it began
+def part_between(path: tuple[Edge, ...], first: XY, last: XY | None = None) -> tuple[Edge, ...]:
+    """A closed path from the place on it nearest to `first` on: to the one nearest to `last`, or back to where it began
     (then it begins within an edge)."""
-    at, part = _nearest(way, first, last is None)
-    edge = way[at]
+    at, part = _nearest(path, first, last is None)
+    edge = path[at]
     if edge.is_circle:
         opened: tuple[Edge, ...] = (replace(edge, start=edge.at(part), end=edge.at(part)),)
     else:
         head, tail = part_of(edge, part, 1.0), part_of(edge, 0.0, part)
-        opened = (head, *way[at + 1 :], *way[:at], replace(tail, end=head.start))
+        opened = (head, *path[at + 1 :], *path[:at], replace(tail, end=head.start))
     if last is not None:
         # (where it begins on a corner one of the two has no length)
         opened = tuple(edge for edge in opened if edge.length > 1e-9)
@@ -443,11 +443,11 @@ def part_between(way: tuple[Edge, ...], first: XY, last: XY | None = None) -> tu
     return tuple(edge for edge in opened if edge.length > _LEAST / 2)
 
 
-def _nearest(way: tuple[Edge, ...], place: XY, is_within: bool) -> tuple[int, float]:
+def _nearest(path: tuple[Edge, ...], place: XY, is_within: bool) -> tuple[int, float]:
     nearest = []
     # (of a very short edge what is left behind the entry would be lost)
-    short = min(10 * _LEAST, max(edge.length for edge in way)) if is_within else 0.0
-    for index, edge in enumerate(way):
+    short = min(10 * _LEAST, max(edge.length for edge in path)) if is_within else 0.0
+    for index, edge in enumerate(path):
         if edge.length < short:
             continue
         part = edge.nearest(place)
