@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 import click
-from compare import Verdict, as_if, close_call, differs
+from compare import Verdict, as_if, close_call, differs, doubtful_centres
 from romhelp import Board, Outcome
 from soup import TOKEN, Bowl, soup
 from tqdm import tqdm
@@ -75,12 +75,15 @@ def judge(bowl: Bowl, firmware: Callable[[Bowl], Outcome] = board) -> tuple[str,
     except Endless:
         return "", Verdict(aside="endless")
     try:
-        kind, difference = differs(firmware(bowl), result)
+        outcome = firmware(bowl)
+        kind, difference = differs(outcome, result)
     except BoardStopped as hang:
         kind, difference = "hang", str(hang)
     if not kind:
         return "", Verdict(result.tape.count(b"G"))
     aside = close_call(result)
+    if not aside and kind == "tape" and "FIT" in bowl.program.upper() and doubtful_centres(outcome.tape, result):
+        aside = "the centre of a flat arc"
     if not aside:
         rough = reference(bowl.program, bowl.answers, bits=33)
         if differs(as_if(rough), result)[0]:

@@ -3,37 +3,30 @@
 Another seed: SKG_SEED=number. A failure prints the program; put into tests/rom/regressions/fit-NAME.skg it is
 run for ever (by test_random.py too).
 
-What is set aside besides the close calls of compare.py: the centre of a flat arc. It lies at r = w²/(2·t×w)
-(t the start direction, w the chord), where |t×w| = |w|·sin φ, φ half the sweep, is a difference of two products
-of the size of |w|: what 32 bits lose there is divided by sin²φ. For coordinates of 100 mm the 33-bit reference
-misses the 50-digit one's centre by 3·10⁻⁶/sin²φ µm in the mean and 1.5·10⁻⁵/sin²φ µm at most (over the 1,300
-arcs of the examples); `CENTRE` leaves room for the firmware's other order of operations. Where the true centre
-lies nearer than this to the tie between two micrometres, the block's x, y and J may be a micrometre off (more
-only where the centre is known no better). That block is counted apart; all others of its tape must be equal.
+What is set aside besides the close calls: the centre of a flat arc (compare.py). That block is counted apart; all
+others of its tape must be equal.
 """
 
 from __future__ import annotations
 
 import inspect
 import os
-import re
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cache
-from math import ceil, hypot, pi, sin
+from math import hypot, pi, sin
 from pathlib import Path
 from random import Random
 from types import ModuleType
 
 import pytest
-from compare import close_call, compare, difference
+from compare import CENTRE, close_call, compare, difference, doubtful_blocks, doubtful_centres
 from curves import FAMILIES, TOL_FAMILIES, Family, curve_part, flat
 from romhelp import Board, run
 
 from skg.ref import Result, cutter, fit
 from skg.ref import run as reference
-from skg.ref.route import Segment
 
 SEED = os.environ.get("SKG_SEED", "1983")
 REGRESSIONS = sorted((Path(__file__).parent / "regressions").glob("fit-*.skg"))
@@ -41,8 +34,6 @@ REGRESSIONS = sorted((Path(__file__).parent / "regressions").glob("fit-*.skg"))
 #: pytest's record_property.
 Record = Callable[[str, object], None]
 
-#: µm by which 32 bits may miss the centre of an arc at 100 mm, times sin² of half its sweep.
-CENTRE = 8e-5
 SHARES = range(4)
 BLOCKS_A_SHARE = int(os.environ.get("SKG_BLOCKS", "2600")) // len(SHARES)
 FLAT_BLOCKS = 300
@@ -66,40 +57,6 @@ def fit_in_rom(built: None) -> None:
         pytest.skip("this ROM has no FIT")
 
 
-def doubt_of_centre(s: Segment) -> float:
-    """µm by which an arc's centre is in doubt when a tie lies within that, else 0."""
-    size = max(abs(v) for p in (s.start, s.end) for v in (p.x, p.y))
-    doubt = CENTRE * max(float(size), 1) / 100 / sin(min(float(s.sweep), pi) / 2) ** 2
-    to_tie = min(abs((1000 * abs(float(v)) + 0.502 + 0.5) % 1 - 0.5) for v in (s.centre.x, s.centre.y))
-    return doubt if to_tie < doubt else 0
-
-
-def blocks_of(tape: bytes) -> list[tuple[str, list[int]]]:
-    """The blocks of a tape: what is not a number, and the numbers x, y, J."""
-    words = tape.decode().split()
-    return [(re.sub(r"(?<=B)\d+", "", word), [int(n) for n in re.findall(r"B(\d+)", word)]) for word in words]
-
-
-def doubtful_blocks(ours: bytes, theirs: bytes, doubts: list[float]) -> int | None:
-    """The number of blocks that differ by no more than a doubtful centre may change; None: another difference.
-
-    A centre that is off by n µm in x and y changes x and y by n and J, the travel, by 4·√2·n at most.
-    """
-    a, b = blocks_of(ours), blocks_of(theirs)
-    if len(a) != len(b):
-        return None
-    different = [(x, y) for x, y in zip(a, b, strict=True) if x != y]
-    if len(different) > len(doubts):
-        return None
-    off_by = 6 * ceil(max(doubts, default=0))
-    for (frame, values), (other_frame, others) in different:
-        if frame != other_frame or frame[-3:-1] not in ("SR", "NR"):
-            return None
-        if any(abs(m - n) > off_by for m, n in zip(values, others, strict=True)):
-            return None
-    return len(different)
-
-
 @dataclass
 class Count:
     """Counts of a comparison: equal blocks, programs, programs set aside and why, doubtful centres."""
@@ -115,10 +72,9 @@ class Count:
         self.programs += 1
         total = sum(line.startswith("B") for line in result.tape.decode().split())
         found = difference(outcome, result)
-        doubts = [doubt for s in result.path if s.is_arc and (doubt := doubt_of_centre(s))]
         if not found:
             self.blocks += total
-        elif outcome.error == result.error and (n := doubtful_blocks(outcome.tape, result.tape, doubts)):
+        elif outcome.error == result.error and (n := doubtful_centres(outcome.tape, result)):
             self.blocks += total - n
             self.centres += n
         else:
