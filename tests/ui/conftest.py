@@ -2,22 +2,39 @@
 
 from __future__ import annotations
 
+import multiprocessing
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from threading import Thread
+from types import SimpleNamespace
 
 import pytest
 from uihelp import Page
 
 from skg.job.setups import Setups
+from skg.ui import worker
 from skg.ui.server import Server
 from skg.ui.session import Session
+
+#: What reading and cutting import.
+PRELOADED = ["skg.ui.desk", "skg.cutting.ladder", "skg.reading.slow_dxf", "skg.reading.svg_file"]
 
 
 @pytest.fixture(scope="session", autouse=True)
 def libraries(build: Callable[..., None]) -> None:
     """The libraries in C: the board and the simulator."""
     build("emu", "tools")
+
+
+@pytest.fixture(scope="session", autouse=True)
+def forked() -> Iterator[None]:
+    """The processes that read and cut come out of one that has imported all: that takes each half a second. (The tests
+    of the command begin them as it does.)"""
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload(PRELOADED)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(worker, "multiprocessing", SimpleNamespace(get_context=lambda _: context))
+        yield
 
 
 @pytest.fixture
