@@ -316,12 +316,13 @@ def check_skg80(name: str, command: Callable[..., list[str]]) -> str:
 
 
 def check_again() -> str:
-    """Sources, ROM images and licences, built once more: the same bytes."""
+    """Sources, ROM images, licences and the zip for Windows, built once more: the same bytes."""
     # (the time of the build is in the sources' gzip)
     os.environ["SOURCE_DATE_EPOCH"] = str(int.from_bytes(found("*.tar.gz").read_bytes()[4:8], "little"))
     with tempfile.TemporaryDirectory() as folder:
         build.DIST = Path(folder)
-        made = [build.source_distribution(), build.roms(), build.skg80_notices()]
+        shutil.copy(found("skg_nc-*-win_amd64.whl"), folder)
+        made = [build.source_distribution(), build.roms(), build.skg80_notices(), build.windows_folder()]
         if differ := [file.name for file in made if file.read_bytes() != (DIST / file.name).read_bytes()]:
             raise Failed(f"built once more, these differ: {', '.join(differ)}")
     return ", ".join(file.name for file in made)

@@ -140,7 +140,9 @@ def build(wheel: Path, version: str, folder: Path) -> Path:
         "python",
         python,
     ]
-    _run(compiler, *words, PYTHONHASHSEED="0", PYTHONDONTWRITEBYTECODE="")
+    # (a constant's bytes depend on whether a module of the compiler's own came from a file .pyc: none does)
+    with tempfile.TemporaryDirectory() as empty:
+        _run(compiler, *words, PYTHONHASHSEED="0", PYTHONDONTWRITEBYTECODE="1", PYTHONPYCACHEPREFIX=empty)
     for source in python.rglob("*.py"):
         if not source.is_relative_to(packages) or source.relative_to(packages).parts[0] not in WITH_SOURCES:
             source.unlink()
