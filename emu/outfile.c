@@ -16,6 +16,15 @@ static char *followed(const char *name)
     return _fullpath(NULL, name, 0);
 }
 
+#define lstat stat
+
+/* (Windows removes no file that is open: one that another process has is not opened anew) */
+static bool hold(FILE *file)
+{
+    (void)file;
+    return true;
+}
+
 static bool settle(FILE *file)
 {
     return !fflush(file) && !_commit(_fileno(file));
@@ -33,11 +42,19 @@ static bool take_place(outfile *f)
     return moved && opened;
 }
 #else
+#include <sys/file.h>
+
 /* A link is followed, one to nothing too: its own name is taken then. */
 static char *followed(const char *name)
 {
     char *found = realpath(name, NULL);
     return found ? found : strdup(name);
+}
+
+/* Keeps a file for this process alone; false: another one has it. (A file system without locks tells nothing.) */
+static bool hold(FILE *file)
+{
+    return !flock(fileno(file), LOCK_EX | LOCK_NB) || errno != EWOULDBLOCK;
 }
 
 static bool settle(FILE *file)
@@ -54,11 +71,24 @@ static bool take_place(outfile *f)
 /* The end of a program that SAVE punches. */
 enum { CTRL_Z = 0x1A };
 
-/* (an older part goes by its name alone: it may be a link to something else) */
+/* Opens a part, which no other process writes. An older one goes by its name alone: it may be a link to something else. */
 static FILE *begun(const char *part)
 {
-    unlink(part);
-    return fopen(part, "wb");
+    struct stat old;
+    FILE *file = !lstat(part, &old) && S_ISREG(old.st_mode) ? fopen(part, "rb") : NULL;
+    bool is_held = file && !hold(file);
+    if (file) {
+        fclose(file);
+    }
+    if (is_held || (unlink(part) && errno != ENOENT)) {
+        errno = is_held ? EBUSY : errno;
+        return NULL;
+    }
+    file = fopen(part, "wb");
+    if (file) {
+        hold(file);
+    }
+    return file;
 }
 
 bool outfile_open(outfile *f, const char *name)
@@ -79,7 +109,15 @@ bool outfile_open(outfile *f, const char *name)
         return false;
     }
     strcat(strcpy(f->part, f->name), OUTFILE_PART);
-    return (f->file = begun(f->part));
+    f->file = begun(f->part);
+    if (!f->file) {
+        int why = errno;
+        /* (it is not ours) */
+        free(f->part);
+        f->part = NULL;
+        errno = why;
+    }
+    return f->file;
 }
 
 bool outfile_keep(outfile *f)

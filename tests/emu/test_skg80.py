@@ -560,6 +560,22 @@ def test_not_onto_a_file_by_its_part(skg80: Skg80, part: Part, tmp_path: Path, o
     assert program.read_text().startswith(TWO_LINES)
 
 
+def test_two_write_one_file(skg80: Skg80, part: Part, tmp_path: Path) -> None:
+    """The second would get the first one's name for its own part."""
+    tape, kept = tmp_path / "tape", tmp_path / "tape.part"
+    command = [SKG80, part(TWO_LINES + "40 GOTO 40\n"), "--punch", tape, "--tty", os.devnull]
+    process = subprocess.Popen(command, stdin=subprocess.DEVNULL)
+    try:
+        while not (kept.exists() and kept.read_bytes() == BLOCKS[0]):
+            assert process.poll() is None
+            time.sleep(0.01)
+        assert says(complaint(skg80("--punch", tape, part("10 END\n")), 2), f"{tape}: ", "busy")
+        assert kept.read_bytes() == BLOCKS[0]
+    finally:
+        process.kill()
+        process.wait()
+
+
 def test_ended_in_the_middle_of_steps(part: Part, tmp_path: Path) -> None:
     """Half of the steps do not pass for all of them."""
     steps, picture, kept = tmp_path / "s", tmp_path / "s.svg", tmp_path / "s.part"

@@ -19,7 +19,8 @@ import pytest
 from facthelp import says
 from toolhelp import CAD_TAPE, PATIENCE
 
-from skg.board.recorder import Listing, wrong_with
+from skg.board.recorder import Listing, Recorder, wrong_with
+from skg.errors import UserError
 
 ROOT = Path(__file__).parents[2]
 SKG = Path(sys.executable).with_name("skg")
@@ -231,6 +232,19 @@ def test_not_onto_the_program(tmp_path: Path) -> None:
         )
         assert done.returncode == 2 and done.stderr.count("\n") == 1 and name.name in done.stderr
         assert program.read_text() == "10 END\n" and not list(tmp_path.glob("*.part"))
+
+
+def test_two_record_to_one_file(tmp_path: Path) -> None:
+    """The second would get the first one's name for its own part; it is refused, and the first goes on."""
+    tape = tmp_path / "tape.3b"
+    with Recorder(str(tape)) as first:
+        first.write(CAD_TAPE[:30])
+        with pytest.raises(UserError) as refused:
+            Recorder(str(tape))
+        assert refused.value.finding.code == "being-recorded" and says(refused.value, "tape.3b.part")
+        first.write(CAD_TAPE[30:])
+        assert first.finish(Listing(), is_doubtful=False)
+    assert tape.read_bytes() == CAD_TAPE
 
 
 def test_not_by_way_of_its_part(attended: Callable, port: Port, tmp_path: Path) -> None:

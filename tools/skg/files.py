@@ -151,16 +151,16 @@ def _beside(folder: Path) -> tuple[int, str] | None:
         if error.errno == errno.EROFS:
             return None
         raise
-    _hold(descriptor)
+    hold(descriptor)
     for left in folder.glob(f".skg-????????{_LEFT}"):
         # (on Windows a file that is open stays)
         with suppress(OSError):
-            if left.name != Path(name).name and time.time() - left.stat().st_mtime > _REST and not _is_held(left):
+            if left.name != Path(name).name and time.time() - left.stat().st_mtime > _REST and not is_held(left):
                 left.unlink()
     return descriptor, name
 
 
-def _hold(descriptor: int) -> bool:
+def hold(descriptor: int) -> bool:
     """Tell whether a file is this process's alone, and keep it so until it is closed."""
     if _HAS_LOCKS:
         try:
@@ -171,9 +171,10 @@ def _hold(descriptor: int) -> bool:
     return True
 
 
-def _is_held(path: Path) -> bool:
+def is_held(path: Path) -> bool:
+    """Tell whether another process holds a file."""
     with path.open("rb") as stream:
-        return not _hold(stream.fileno())
+        return not hold(stream.fileno())
 
 
 def _write_in_place(target: Path, data: bytes) -> None:

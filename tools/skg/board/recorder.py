@@ -8,7 +8,7 @@ from pathlib import Path
 from types import TracebackType
 
 from skg.errors import UserError, of_system
-from skg.files import part_of, write_bytes
+from skg.files import hold, is_held, part_of, write_bytes
 from skg.messages.finding import Finding
 from skg.tape.text import scan
 from skg.terminal import remark
@@ -79,9 +79,12 @@ class Recorder:
         self._path = Path(part_of(name)) if self._is_plain else target
         try:
             if self._is_plain:
+                if self._path.is_file() and is_held(self._path):
+                    raise UserError(Finding("being-recorded").within(str(self._path)))
                 # (an older part goes by its name alone: it may be a link to something else)
                 self._path.unlink(missing_ok=True)
             self._file = self._path.open("w+b" if self._is_plain else "wb", buffering=0)
+            hold(self._file.fileno())
         except OSError as error:
             raise UserError(of_system(error).within(str(self._path))) from None
         self._is_open = True
