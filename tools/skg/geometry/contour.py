@@ -48,14 +48,10 @@ class Edge(Piece):
         """Neither an arc nor a curve."""
         return self.centre is None and not self.nodes
 
-    @property
+    @cached_property
     def length(self) -> float:
         """Length."""
-        return self._curve_length if self.nodes else super().length
-
-    @cached_property
-    def _curve_length(self) -> float:
-        return sum(self.steps())
+        return sum(self.steps()) if self.nodes else super().length
 
     def steps(self) -> list[float]:
         """The lengths of a curve's chords."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import chain
 from math import pi
 
 import numpy as np
@@ -10,6 +11,7 @@ import numpy as np
 from skg.geometry.arrays import Floats, Whole, columns_at, directions, headings, hypots, numbers_up_to
 from skg.geometry.contour import Contour, Edge
 from skg.geometry.piece import Piece
+from skg.geometry.plane import XY
 
 #: So many arcs become chords together.
 _ARCS = 1000
@@ -24,8 +26,8 @@ def points_of(contours: Sequence[Contour], off: float | None = None) -> tuple[Fl
     per_contour = np.add.reduceat(counts, first[:-1]) + 1 if edges else counts
     begins = np.cumsum(counts) - counts + np.repeat(np.arange(len(contours)), np.diff(first))
     points = np.empty((int(per_contour.sum()), 2))
-    points[begins] = np.array([edge.start for edge in edges], float).reshape(-1, 2)
-    points[np.cumsum(per_contour) - 1] = np.array([contour.edges[-1].end for contour in contours]).reshape(-1, 2)
+    points[begins] = _places([edge.start for edge in edges])
+    points[np.cumsum(per_contour) - 1] = _places([contour.edges[-1].end for contour in contours])
     arcs = [number for number, edge in enumerate(edges) if not edge.is_line and not edge.nodes]
     for begin in range(0, len(arcs), _ARCS):
         some = arcs[begin : begin + _ARCS]
@@ -55,14 +57,19 @@ def _inner_points(arcs: list[Edge], begins: Whole, pieces: Whole, points: Floats
 def rows_of(pieces: Sequence[Piece]) -> Floats:
     """Lines and arcs as rows (n, 9): start, end, centre, radius, angle at the start, sweep; a line has zeros there."""
     rows = np.zeros((len(pieces), 9))
-    rows[:, 0:2] = np.array([piece.start for piece in pieces]).reshape(-1, 2)
-    rows[:, 2:4] = np.array([piece.end for piece in pieces]).reshape(-1, 2)
+    rows[:, 0:2] = _places([piece.start for piece in pieces])
+    rows[:, 2:4] = _places([piece.end for piece in pieces])
     arcs = [number for number, piece in enumerate(pieces) if piece.centre is not None]
-    rows[arcs, 4:6] = np.array([pieces[number].centre for number in arcs]).reshape(-1, 2)
+    rows[arcs, 4:6] = _places([centre for piece in pieces if (centre := piece.centre) is not None])
     rows[arcs, 8] = [pieces[number].sweep for number in arcs]
     out = rows[arcs, 0:2] - rows[arcs, 4:6]
     rows[arcs, 6], rows[arcs, 7] = hypots(*out.T), directions(out)
     return rows
+
+
+def _places(places: Sequence[XY]) -> Floats:
+    """Places as rows, in half of the time that an array takes from tuples."""
+    return np.fromiter(chain.from_iterable(places), float, 2 * len(places)).reshape(-1, 2)
 
 
 def boxes_of(contours: Sequence[Contour]) -> tuple[Floats, Floats]:

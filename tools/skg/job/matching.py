@@ -113,8 +113,22 @@ class Known:
     def _costs(self, chosen: Sequence[Chosen], shift: XY) -> list[list[tuple[float, int]]]:
         """Distances of contours from the places and differences of their sizes: the sum, mm, and the number of each
         that may be meant or taken for it, the nearest first."""
+        costs: list[list[tuple[float, int]]] = [[] for _ in chosen]
+        for (index, number), more in self._near(chosen, shift).items():
+            if chosen[index].layer.lower() in self.layers[number]:
+                far = min(edge.far(shifted(chosen[index].place, shift)) for edge in self.contours[number].edges)
+                costs[index].append((far + more, number))
+        limits = _limits(np.array([choice.size for choice in chosen], float).reshape(-1, 2)).tolist()
+        # (the nearest is too far: none is meant)
+        return [
+            sorted(pairs) if pairs and min(pairs)[0] <= most else [] for pairs, most in zip(costs, limits, strict=True)
+        ]
+
+    def _near(self, chosen: Sequence[Chosen], shift: XY) -> dict[tuple[int, int], float]:
+        """Those that are chosen, by their numbers, with each contour of that kind that is near and about as large: the
+        difference of their sizes, mm."""
         if not chosen:
-            return []
+            return {}
         places = np.array([choice.place for choice in chosen], float) + shift
         sizes = np.array([choice.size for choice in chosen], float)
         reach = _CLEARLY * _limits(sizes)
@@ -124,18 +138,8 @@ class Known:
         grown = np.abs(self.sizes[numbers] - sizes[indices]).sum(1)
         kinds = np.array([choice.kind for choice in chosen])
         close = np.flatnonzero((grown <= reach[indices]) & (self.kinds[numbers] == kinds[indices]))
-        costs: list[list[tuple[float, int]]] = [[] for _ in chosen]
-        for index, number, more in zip(
-            indices[close].tolist(), numbers[close].tolist(), grown[close].tolist(), strict=True
-        ):
-            if chosen[index].layer.lower() in self.layers[number]:
-                far = min(edge.far(shifted(chosen[index].place, shift)) for edge in self.contours[number].edges)
-                costs[index].append((far + more, number))
-        limits = _limits(sizes).tolist()
-        # (the nearest is too far: none is meant)
-        return [
-            sorted(pairs) if pairs and min(pairs)[0] <= most else [] for pairs, most in zip(costs, limits, strict=True)
-        ]
+        pairs = zip(indices[close].tolist(), numbers[close].tolist(), strict=True)
+        return dict(zip(pairs, grown[close].tolist(), strict=True))
 
     def _is_doubtful(self, match: Match) -> bool:
         if match.number is None:
@@ -157,16 +161,18 @@ class Known:
 
     def choose_all(self) -> list[Chosen]:
         """Describe all contours, as `choose` does, with no settings."""
-        numbers = range(len(self.contours))
+        none = Overrides()
         chosen = [
-            self._by(number, max(self.contours[number].edges, key=lambda edge: edge.length), Overrides())
-            for number in numbers
+            self._by(number, max(contour.edges, key=lambda edge: edge.length), none)
+            for number, contour in enumerate(self.contours)
         ]
-        costs = self._costs(chosen, (0.0, 0.0))
-        return [
-            chosen[number] if _clear_of(costs[number], number) >= _LEAST else self.choose(number, Overrides())
-            for number in numbers
-        ]
+        # (most have nothing beside them that they could be taken for)
+        near = sorted({index for index, number in self._near(chosen, (0.0, 0.0)) if index != number})
+        costs = self._costs([chosen[number] for number in near], (0.0, 0.0))
+        for number, cost in zip(near, costs, strict=True):
+            if _clear_of(cost, number) < _LEAST:
+                chosen[number] = self.choose(number, none)
+        return chosen
 
     def _by(self, number: int, edge: Edge, overrides: Overrides) -> Chosen:
         """A contour by the middle of one of its edges."""

@@ -49,6 +49,9 @@ _AT_ENTRY = 0.01
 _LEAST_ARC, _ROUND = 0.05, 0.998
 
 
+#: What most contours have.
+_TOP, _NO_REMARKS, _NO_TABS = Rung(), Remarks(), Tabs()
+
 #: The settings of a contour, and its given start hole.
 Asked = tuple[CutSettings, XY | None]
 
@@ -92,7 +95,7 @@ class _Choice:
         assert self.best is not None, "no entry was tried"
         entry, part, start, tab_hole = self.best
         contour = entry.begun(self.made.contour)
-        made = replace(self.made, contour=contour, start=start, part=part, room=self.room)
+        made = self.made.changed(contour=contour, start=start, part=part, room=self.room)
         return _with_tabs(made, Tab(inf, tab_hole, start)) if made.tabs.length else made
 
 
@@ -160,17 +163,18 @@ class _Planner:
             is_cramped = want.is_arc and tab > 0 and arc < max(_LEAST_ARC, _ROOMY * want.widest)
             tab_passes = tuple(sign * (want.offset + more) for more in (want.passes[0], *want.tab_passes))
             arc_or_line = LeadShape.ARC if want.is_arc else LeadShape.STRAIGHT
+            is_odd = bool(loops or whiskers or is_short)
             made = PlannedContour(
                 contour,
                 start or (0.0, 0.0),
                 0.0,
                 passes,
                 depth,
-                Tabs(tab, tab_passes) if tab else Tabs(),
+                Tabs(tab, tab_passes) if tab else _NO_TABS,
                 want.overlap,
                 number,
-                rung=Rung(LeadShape.CRAMPED if is_cramped else arc_or_line),
-                remarks=Remarks(loops, whiskers, longest_tab=fits if is_short else None),
+                rung=Rung(LeadShape.CRAMPED if is_cramped else arc_or_line) if want.is_arc else _TOP,
+                remarks=Remarks(loops, whiskers, longest_tab=fits if is_short else None) if is_odd else _NO_REMARKS,
             )
             if tab:
                 _refuse_tabs(made, want)
@@ -556,7 +560,7 @@ def plan_nested(
     ordered = _as_wanted(_ordered([before[number][1] for number in asked]), wanted)
     for turn, planned in enumerate(ordered, 1):
         if planned.turn != turn:
-            before[planned.number] = asked[planned.number], replace(planned, turn=turn)
+            before[planned.number] = asked[planned.number], planned.changed(turn=turn)
     ordered = [before[planned.number][1] for planned in ordered]
     if any(want.order is not None for want in wanted):
         _refuse_outer_first(ordered, nesting.holding)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from enum import Enum
 from functools import cached_property
 from itertools import pairwise
@@ -133,6 +133,13 @@ class PlannedContour:
     room: float = inf
     rung: Rung = Rung()
     remarks: Remarks = Remarks()
+
+    def changed(self, **values: Any) -> PlannedContour:  # noqa: ANN401
+        """The same with other values of some fields: as `replace` makes it, in a tenth of the time."""
+        made = object.__new__(PlannedContour)
+        known = vars(self)
+        vars(made).update({name: known[name] for name in _FIELDS} | values)
+        return made
 
     def on_rung(self, **changes: Any) -> PlannedContour:  # noqa: ANN401
         """The same on another rung: `changes` are fields of `Rung`."""
@@ -355,6 +362,10 @@ class PlannedContour:
             into = replace(into, entry=edges[0].start, is_arc=into.is_arc and distance(edges[0].start, first) < SQUARE)
             out = replace(out, entry=edges[-1].end, is_arc=out.is_arc and distance(edges[-1].end, last) < SQUARE)
         return replace(run, edges=edges, offset=0.0, into=into, out=out)
+
+
+#: What `changed` takes over: not what is worked out of it once.
+_FIELDS = tuple(each.name for each in fields(PlannedContour))
 
 
 def _chords(edge: Edge) -> list[Edge]:

@@ -34,7 +34,7 @@ from skg.planning.nesting import findings
 from skg.planning.planned import PlannedContour
 from skg.planning.runs import Lead, Run
 from skg.reading.account import Account
-from skg.ui.json_text import encoded, facts, in_json, said, told
+from skg.ui.json_text import each_in_json, encoded, facts, in_json, said, told
 from skg.wording import visible
 
 #: Decimals of a length, mm; of a direction, radians.
@@ -53,6 +53,9 @@ _LEFT: dict[str, Any] = {
     "tabs": [],
     **dict.fromkeys(("hole", "entry", "tab", "direction", "radius", "lead_arc")),
 }
+
+#: One that is not cut.
+_NO_TURN: tuple[int | None, PlannedContour | None] = (None, None)
 
 
 def place(point: XY) -> list[float]:
@@ -167,11 +170,15 @@ def _contour(drawn: DrawnJob, number: int, chosen: Chosen) -> dict[str, Any]:
     }
 
 
+#: A contour as it is planned, the wishes for it, and what is wrong with it.
+_Planned = tuple[PlannedContour | None, CutSettings, dict | None]
+
+
 class Plans:
     """The plans of a drawing's contours as JSON: what has not changed since the last one is not written anew."""
 
     def __init__(self) -> None:
-        self._known: dict[int, tuple[PlannedContour | None, CutSettings, dict | None, str]] = {}
+        self._known: dict[int, tuple[_Planned, str]] = {}
         self._told: list[str] = []
         self._walls = walls.Walls()
 
@@ -187,11 +194,14 @@ class Plans:
         where the drawing lies on the machine, `pattern`: its copies; all is told in its own places."""
         turns = {planned.number: (turn, planned) for turn, planned in enumerate(contours, 1)}
         why = {error.contour: told(error) for error in errors if error.contour is not None}
-        plans = []
-        for number, want in enumerate(wanted):
-            turn, planned = turns.get(number, (None, None))
-            plan = self._contour(number, planned, want, why, placement)
-            plans.append(f'"{number}":{{"number":{turn or "null"},{plan}')
+        self._write(
+            {number: (turns.get(number, _NO_TURN)[1], want, why.get(number)) for number, want in enumerate(wanted)},
+            placement,
+        )
+        plans = [
+            f'"{number}":{{"number":{turns.get(number, _NO_TURN)[0] or "null"},{self._known[number][1]}'
+            for number in range(len(wanted))
+        ]
         changed = [contour for contour, before in zip_longest(plans, self._told) if contour and contour != before]
         self._told = plans
         data = {
@@ -211,18 +221,21 @@ class Plans:
         )
         return whole, part
 
-    def _contour(
-        self, number: int, planned: PlannedContour | None, want: CutSettings, why: dict[int, dict], placement: Placement
-    ) -> str:
-        """A contour's plan without its place in the order, and without the brace before it."""
-        wrong = why.get(number)
-        known = self._known.get(number)
-        if known is None or known[0] is not planned or known[1:3] != (want, wrong):
-            plan = (plan_of(planned, placement) if planned else _LEFT) | {"error": wrong}
+    def _write(self, plans: dict[int, _Planned], placement: Placement) -> None:
+        """Write the plans of contours that are not known, each without its place in the order, and without the brace
+        before it."""
+        new = {
+            number: plan
+            for number, plan in plans.items()
+            if not (known := self._known.get(number)) or known[0][0] is not plan[0] or known[0][1:] != plan[1:]
+        }
+        told_plans = [
+            (plan_of(planned, placement) if planned else _LEFT) | {"error": wrong} for planned, _, wrong in new.values()
+        ]
+        for (number, plan), as_json in zip(new.items(), each_in_json(told_plans), strict=True):
+            planned, want, _ = plan
             is_slug = planned is not None and planned.contour.is_closed and planned.frees == "slug"
-            text = f'{in_json(plan)[1:-1].decode()},"values":{_values(want, is_slug)}}}'
-            known = self._known[number] = planned, want, wrong, text
-        return known[3]
+            self._known[number] = plan, f'{as_json[1:-1]},"values":{_values(want, is_slug)}}}'
 
 
 @lru_cache
