@@ -94,8 +94,7 @@ export class Opening {
         await this.#tape(file.name, found.text);
         break;
       case "saved":
-        await this.#saved(found.saved);
-        say("imported", file.name);
+        await this.#saved(file.name, found.saved);
         break;
       case "refused":
         say(found.why, ...found.values);
@@ -117,9 +116,14 @@ export class Opening {
     show(said + (read.isWhole ? "" : t("tapeNoEnd")));
   }
 
-  /** A page that was saved: its machine, its text, its settings, its tape. */
-  async #saved({ kept, settings, tape, made, lines, how, from, works }: Everything): Promise<void> {
+  /** A page that was saved: its machine, its text, its settings, its tape. With a tape that is none, all is left as it is. */
+  async #saved(file: string, { kept, settings, tape, made, lines, how, from, works }: Everything): Promise<void> {
     const { editor, session, stage } = this.#bench;
+    const read = tape ? await readWhole(file, tape) : undefined;
+    if (read && "why" in read) {
+      say(read.why, ...read.values);
+      return;
+    }
     this.#apply(settings);
     this.#works.add(works ?? []);
     if (kept) {
@@ -129,14 +133,12 @@ export class Opening {
       if (kept.draft !== undefined) editor.text = kept.draft;
       this.#bench.origin = kept.about?.origin;
     }
-    if (made && lines) {
-      stage.show({ made, lines, ...(how ? { how } : {}), ...(from ? { from } : {}) });
-      return;
-    }
-    const read = tape ? await readWhole("saved", tape) : undefined;
-    if (!read || "why" in read) return;
     // (files of before have no name of their tape: it was called after the program)
     const { name } = nameFor(kept?.program ?? "", undefined, kept?.about?.origin);
-    stage.open(read, made ?? { name, program: undefined }, how, from);
+    const isTape = lines?.map(({ text }) => `${text}\r\n`).join("") === tape;
+    if (read && made && lines && isTape) stage.show({ made, lines, ...(how ? { how } : {}), ...(from ? { from } : {}) });
+    else if (read) stage.open(read, made ?? { name, program: undefined }, how, from);
+    else if (kept) stage.clear({ name, program: undefined }, false);
+    say("imported", file);
   }
 }

@@ -323,6 +323,10 @@ describe("nothing is lost", { skip: existsSync(CHROMIUM) ? false : "chromium is 
     await open(other.page, "all.json", all);
     await message(other.page, /all\.json/);
     assert.equal((await works(other.page)).length, 3, "none is there twice");
+    // a tape that is none changes nothing
+    await open(other.page, "odd.json", JSON.stringify({ ...JSON.parse(all), tape: "B1B2", settings: { theme: "dark" } }));
+    await message(other.page, /odd\.json is no tape/);
+    assert.equal(await other.page.inputValue("#theme"), "auto");
     // the tape is the saved program's, not that of the part that was seen before; so is it after a reload
     for (const time of ["brought back", "reloaded"]) {
       await says(other.page, "#made", "HELLOWORLD");
