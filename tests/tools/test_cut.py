@@ -1233,6 +1233,16 @@ def test_sheet_of_what_is_large_or_close(run: Run, tmp_path: Path) -> None:
     assert np.ptp(arrows[1:-1], axis=1).max() < apart
 
 
+@pytest.mark.parametrize("form", ["svg", "pdf"])
+def test_a_sheet_is_the_same_each_time(run: Run, tmp_path: Path, form: str) -> None:
+    """No moment stands in it: `make docs` writes the picture anew where it has changed alone."""
+    sheets = set()
+    for _ in range(2):
+        assert run("cut", BRACKET, "-o", tmp_path / "part.3b", "--sheet", tmp_path / f"sheet.{form}").exit_code == 0
+        sheets.add((tmp_path / f"sheet.{form}").read_bytes())
+    assert len(sheets) == 1
+
+
 @pytest.mark.parametrize("name", ["bad\udcff.dxf", "a$\\b$_c.dxf", "line\nbreak\x01.dxf", "零件" * 15 + ".dxf"])
 def test_sheet_of_a_file_with_an_odd_name(run: Run, tmp_path: Path, name: str) -> None:
     """Bytes that are no UTF-8, what matplotlib takes for a formula, what no font has: a sheet, without a word."""

@@ -40,6 +40,8 @@ def printed(command: str, folder: Path = ROOT) -> str:
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
     )
+    # (a page would show it)
+    assert "Traceback (most recent call last)" not in done.stdout, done.stdout
     return done.stdout
 
 

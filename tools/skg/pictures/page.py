@@ -47,10 +47,11 @@ def installed() -> tuple[str, ...]:
     return tuple(name for name in _MORE_FONTS if name in known)
 
 
-def save(figure: Figure, output: str, form: str, dpi: int, metadata: dict[str, str | None] | None = None) -> None:
-    """Write a page as "svg", "png" or "pdf"; text in an SVG stays text."""
+def save(figure: Figure, output: str, form: str, dpi: int, metadata: dict[str, str] | None = None) -> None:
+    """Write a page as "svg", "png" or "pdf"; text in an SVG stays text. The same page always gives the same bytes."""
+    undated = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(form, {})
     settings = {"svg.hashsalt": "skg", "svg.fonttype": "none", "path.simplify": False}
     with binary_output(output) as stream, mpl.rc_context(settings), warnings.catch_warnings():
         # (a letter that no font has is an empty box)
         warnings.filterwarnings("ignore", "Glyph")
-        figure.savefig(stream, format=form, dpi=dpi, metadata=metadata, facecolor="white")
+        figure.savefig(stream, format=form, dpi=dpi, metadata=undated | (metadata or {}), facecolor="white")

@@ -339,10 +339,10 @@ class Picture:
             self.axes.text(*place, **as_it_stands(name), va="top", fontsize=6, color=colour)
 
     def save(self, output: str, form: str) -> None:
-        """Write the picture; the same drawing always gives the same bytes of SVG."""
-        metadata: dict[str, str | None] = {}
+        """Write the picture."""
+        metadata: dict[str, str] = {}
         if form == "svg":
-            metadata = {"Date": None, "Creator": "skg plot", "Description": json.dumps(self.description)}
+            metadata = {"Creator": "skg plot", "Description": json.dumps(self.description)}
         elif form == "pdf":
-            metadata = {"CreationDate": None, "Creator": "skg plot"}
+            metadata = {"Creator": "skg plot"}
         save(self.figure, output, form, 150, metadata)
