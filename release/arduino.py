@@ -6,6 +6,7 @@ release/arduino.py FOLDER           writes it there
 from __future__ import annotations
 
 import argparse
+import os
 import shutil
 import tomllib
 from pathlib import Path
@@ -31,7 +32,8 @@ def write(folder: Path) -> None:
     project = tomllib.loads((ROOT / "tools" / "pyproject.toml").read_text())["project"]
     properties = folder / "library.properties"
     text = properties.read_text().replace("@VERSION@", project["version"])
-    properties.write_text(text.replace("@URL@", project.get("urls", {}).get("Homepage", "")))
+    # (the project's page, as tools/setup.py has it)
+    properties.write_text(text.replace("@URL@", os.environ.get("SKG_HOME", "").rstrip("/")))
     for name in CORE:
         shutil.copy(ROOT / "emu" / name, folder / "src")
     images = {name: (ROOT / "roms" / file).read_bytes() for name, file in ROMS.items()}

@@ -116,3 +116,11 @@ def test_the_archive_is_what_a_library_manager_reads(library: Path) -> None:
         *properties
     }
     assert (library / "src" / properties["includes"]).exists()
+
+
+def test_the_library_names_the_projects_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As the package does, where $SKG_HOME says what it is."""
+    monkeypatch.setenv("SKG_HOME", "https://example.org/skg/")
+    release.write(tmp_path / "SKG")
+    rows = dict(row.split("=", 1) for row in (tmp_path / "SKG" / "library.properties").read_text().splitlines())
+    assert rows["url"] == "https://example.org/skg" and not [row for row in rows.values() if not row or "@" in row]
