@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from skg.messages.finding import Phrase
+from skg.messages.finding import Finding, Phrase
 
 #: Two English words in a row are a sentence; one alone is a name: of a file, a layer, a word of a language, an option.
 ENGLISH = re.compile(r"\b[A-Za-z]?[a-z]{2,} [a-z]{2,}\b")
@@ -33,7 +33,15 @@ def watch() -> None:
             if name not in _FOREIGN and (code, name) not in _RENDERED:
                 found.extend(f"{code}, {name}: {text}" for text in _texts(value) if ENGLISH.search(text))
 
-    Phrase.__init__ = init
+    placed = Finding.within
+
+    def within(self: Finding, *source: str | Phrase) -> Finding:
+        # (a file's name has a dot or its folders)
+        names = [text for text in source if isinstance(text, str) and not re.search(r"[./\\]", text)]
+        found.extend(f"{self.code}, in: {text}" for text in names if ENGLISH.search(text))
+        return placed(self, *source)
+
+    Phrase.__init__, Finding.within = init, within
 
 
 def _texts(value: object) -> Iterator[str]:

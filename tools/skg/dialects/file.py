@@ -103,7 +103,7 @@ def decoded(data: bytes, name: str) -> GcodeDialect:
     known: dict[str, Any] = {**_TOP, **_TABLES}
     fields = checked_values({key: value for key, value in top.items() if key not in _TABLES}, known, name)
     tables = {
-        key: checked_values(expect_table(top.get(key, {}), f"{name}: [{key}]"), checks, f"{name}: [{key}]")
+        key: checked_values(expect_table(top.get(key, {}), name, f"[{key}]"), checks, name, f"[{key}]")
         for key, checks in _TABLES.items()
     }
     offset = tables.pop("offset")

@@ -20,13 +20,16 @@ from skg.job.machine import INTO, ROMS, SMALL, BoardOptions, Policy, Setup
 from skg.job.placing import MIRRORS, Copies, Place
 from skg.job.read_options import OPEN, UNITS, ReadOptions
 from skg.job.wanted import CLEARANCE_ON, LEAD_SHAPES, SIDES, Overrides
-from skg.messages.finding import Finding
+from skg.messages.finding import Finding, Phrase
 from skg.tape.styles import STYLES
 
 #: Tables of a file: their keys with the values.
 Tables = Mapping[str, Mapping[str, Any]]
 #: The version of the file's form.
 SCHEMA = 1
+
+#: The sources of a message: a file or what else has the data, and the part of it.
+Where = tuple[str | Phrase, ...]
 
 _READ: dict[str, values.Check] = {
     "units": values.choice(UNITS),
@@ -189,7 +192,7 @@ def encoded(job: Job) -> bytes:
     return dump(job).encode("utf-8", toml.ODD)
 
 
-def from_data(data: object, name: str, setup: Tables | None = None) -> Job:
+def from_data(data: object, name: str | Phrase, setup: Tables | None = None) -> Job:
     """Make the job of plain data; what is wrong with these is a `UserError` that begins with the name and the place.
     `setup`: tables for what they do not say."""
     top = expect_table(data, name)
@@ -201,21 +204,23 @@ def from_data(data: object, name: str, setup: Tables | None = None) -> Job:
             raise UserError(missing.within(name))
     del settings["schema"]
     tables = over(_tables(top, TABLES, name), setup or {})
-    layers = _layers(_list(top, "layer", name), name)
+    layers = _layers(_list(top, "layer", name))
     contours = tuple(_chosen(table, where) for table, where in _list(top, "contour", name))
     _refuse_twins(contours, name)
     return Job(layers=layers, contours=contours, **_made(tables, name), **settings)
 
 
-def _tables(top: Mapping[str, Any], known: Mapping[str, dict[str, values.Check]], name: str) -> dict[str, dict]:
+def _tables(
+    top: Mapping[str, Any], known: Mapping[str, dict[str, values.Check]], name: str | Phrase
+) -> dict[str, dict]:
     """The tables that are known, their values checked."""
     return {
-        key: checked_values(expect_table(top.get(key, {}), f"{name}: [{key}]"), keys, f"{name}: [{key}]")
+        key: checked_values(expect_table(top.get(key, {}), name, f"[{key}]"), keys, name, f"[{key}]")
         for key, keys in known.items()
     }
 
 
-def _made(tables: Tables, name: str) -> dict[str, Any]:
+def _made(tables: Tables, name: str | Phrase) -> dict[str, Any]:
     """The parts of a job that its tables are, by their names as fields."""
     parts: dict[str, Any] = {}
     for key, keys in tables.items():
@@ -235,30 +240,30 @@ def made(tables: Tables) -> dict[str, Any]:
     }
 
 
-def _layers(entries: list[tuple[dict[str, Any], str]], name: str) -> dict[str, Overrides]:
+def _layers(entries: list[tuple[dict[str, Any], Where]]) -> dict[str, Overrides]:
     layers: dict[str, Overrides] = {}
     for entry, where in entries:
         layer = _required(entry, ("name",), where)[0]
         if layer.lower() in map(str.lower, layers):
-            raise UserError(Finding("layer-twice", layer=layer).within(where))
+            raise UserError(Finding("layer-twice", layer=layer).within(*where))
         layers[layer] = Overrides(**entry)
     return layers
 
 
-def _chosen(table: dict[str, Any], where: str) -> Chosen:
+def _chosen(table: dict[str, Any], where: Where) -> Chosen:
     layer, kind, place, size = _required(table, ("layer", "kind", "at", "size"), where)
     return Chosen(layer, kind, place, size, Overrides(**table))
 
 
-def _required(table: dict[str, Any], keys: tuple[str, ...], where: str) -> list[Any]:
+def _required(table: dict[str, Any], keys: tuple[str, ...], where: Where) -> list[Any]:
     """Take values out that must be there."""
     for key in keys:
         if key not in table:
-            raise UserError(Finding("key-missing", key=key).within(where))
+            raise UserError(Finding("key-missing", key=key).within(*where))
     return [table.pop(key) for key in keys]
 
 
-def _refuse_twins(contours: tuple[Chosen, ...], name: str) -> None:
+def _refuse_twins(contours: tuple[Chosen, ...], name: str | Phrase) -> None:
     seen: dict[Chosen, int] = {}
     for number, chosen in enumerate(contours, 1):
         first = seen.setdefault(replace(chosen, overrides=Overrides()), number)
@@ -266,44 +271,44 @@ def _refuse_twins(contours: tuple[Chosen, ...], name: str) -> None:
             raise UserError(Finding("contour-twice", first=first).within(name, f"[[contour]] {number}"))
 
 
-def _list(top: Mapping[str, Any], key: str, name: str) -> list[tuple[dict[str, Any], str]]:
+def _list(top: Mapping[str, Any], key: str, name: str | Phrase) -> list[tuple[dict[str, Any], Where]]:
     """The entries of a list of tables, checked, each with its place."""
     entries = top.get(key, [])
     if not isinstance(entries, list):
         raise UserError(Finding("expected-tables", key=key).within(name))
-    tables = []
+    tables: list[tuple[dict[str, Any], Where]] = []
     for number, entry in enumerate(entries, 1):
-        where = f"{name}: [[{key}]] {number}"
-        tables.append((checked_values(expect_table(entry, where), _LISTS[key], where), where))
+        where = name, f"[[{key}]] {number}"
+        tables.append((checked_values(expect_table(entry, *where), _LISTS[key], *where), where))
     return tables
 
 
-def expect_table(data: object, where: str) -> dict[str, Any]:
+def expect_table(data: object, *where: str | Phrase) -> dict[str, Any]:
     if not isinstance(data, dict):
-        raise UserError(Finding("expected-table").within(where))
+        raise UserError(Finding("expected-table").within(*where))
     return data
 
 
-def _refuse_unknown(data: Mapping[str, Any], keys: Mapping[str, object], where: str) -> None:
+def _refuse_unknown(data: Mapping[str, Any], keys: Mapping[str, object], *where: str | Phrase) -> None:
     for key in data:
         if key not in keys:
             near = get_close_matches(str(key), keys, 1, 0.5)
             short_key = str(key)[:40]
             unknown = Finding("unknown-key", key=short_key, keys=tuple(keys))
             close = Finding("unknown-key-near", key=short_key, near=near[0]) if near else unknown
-            raise UserError(close.within(where))
+            raise UserError(close.within(*where))
 
 
-def checked_values(data: Mapping[str, Any], keys: Mapping[str, values.Check], where: str) -> dict[str, Any]:
+def checked_values(data: Mapping[str, Any], keys: Mapping[str, values.Check], *where: str | Phrase) -> dict[str, Any]:
     """The values, as the checks return them."""
-    _refuse_unknown(data, keys, where)
+    _refuse_unknown(data, keys, *where)
     checked = {}
     for key, value in data.items():
         try:
             checked[key] = keys[key](value)
         except values.Wrong as wrong:
             finding = Finding("wrong-value", key=key, value=_told(value), wrong=wrong.why)
-            raise UserError(finding.within(where)) from None
+            raise UserError(finding.within(*where)) from None
     return checked
 
 

@@ -60,7 +60,8 @@ def _block(placed: Placed, layer: str) -> _Entity:
     shape = _shape(placed)
     if shape == "LINE":
         return _Entity(shape, layer, {"start": _millimetres(placed.start), "end": _millimetres(placed.end)})
-    round_about = {"center": _millimetres(placed.centre), "radius": placed.radius / 1000}
+    assert placed.centre is not None
+    round_about: dict[str, XY | float] = {"center": _millimetres(placed.centre), "radius": placed.radius / 1000}
     if shape == "CIRCLE":
         return _Entity(shape, layer, round_about)
     # A DXF arc always runs counter-clockwise.
@@ -68,7 +69,7 @@ def _block(placed: Placed, layer: str) -> _Entity:
     return _Entity(shape, layer, round_about | {"start_angle": degrees(low), "end_angle": degrees(high)})
 
 
-def _polyline(blocks: tuple[Placed, ...]) -> _Entity:
+def _polyline(blocks: Sequence[Placed]) -> _Entity:
     """Blocks as one LWPOLYLINE, arcs as bulges; a full circle is two halves."""
     points: list[tuple[float, float, float]] = []
     for placed in blocks:
@@ -147,7 +148,7 @@ def write(
         key = entity.kind, entity.layer
         if key not in patterns:
             patterns[key] = _pattern(entity, owner, drawing.dxfversion)
-        values = []
+        values: list[float] = []
         for value in entity.attributes.values():
             values += value if isinstance(value, tuple) else [value]
         stream.write(patterns[key] % (handle, *values))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from functools import cache
+from typing import Any
 
 import matplotlib as mpl
 from matplotlib import font_manager
@@ -29,11 +30,11 @@ _MORE_FONTS = (
 )
 
 
-def as_it_stands(text: str) -> dict[str, object]:
+def as_it_stands(text: str) -> dict[str, Any]:
     """Escape a file's name or a title for matplotlib: no formula between dollars, in a font that has
     its letters."""
     shown = visible(text)
-    options: dict[str, object] = {"s": shown, "parse_math": False}
+    options: dict[str, Any] = {"s": shown, "parse_math": False}
     letters = font_manager.get_font(font_manager.findfont(_FONT))
     if not all(letters.get_char_index(ord(character)) for character in shown):
         options["fontfamily"] = [_FONT, *installed()]

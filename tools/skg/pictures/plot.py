@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
 from math import cos, floor, inf, pi, sin, sqrt
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -180,7 +181,7 @@ class Picture:
 
     def _rulers(self, title: str) -> None:
         """Ticks in mm of the part, at the drawing's lower and left edge, and the title."""
-        grey = {"color": "#666666", "fontsize": 6}
+        grey: dict[str, Any] = {"color": "#666666", "fontsize": 6}
         (left, bottom), (right, top) = self.low, self.high
         x, y = left - self.on_paper(4), bottom - self.on_paper(4)
         for low, high, is_x in ((left, right, True), (bottom, top, False)):
@@ -229,10 +230,10 @@ class Picture:
         self.axes.add_artist(PathPatch(curve, fill=False, gid=gid, **look))
 
     def _route(self, route: PlacedRoute, colour: str, gid: str, wire: float) -> None:
-        look = {"edgecolor": colour, "joinstyle": "round"}
+        look: dict[str, Any] = {"edgecolor": colour, "joinstyle": "round"}
         if wire and not route.is_move:
             width = wire * self.description["mm_to_points"]
-            kerf = {"alpha": 0.25, "capstyle": "round", "linewidth": width, "zorder": 1}
+            kerf: dict[str, Any] = {"alpha": 0.25, "capstyle": "round", "linewidth": width, "zorder": 1}
             self._curve(_path(route.blocks, 0.001), f"{gid}-kerf", **look, **kerf)
         look |= {"linewidth": 0.8, "zorder": 2, "linestyle": (0, (4, 2)) if route.is_move else "solid"}
         # (matplotlib writes a curve as one string, and has several copies of it meanwhile)
@@ -248,16 +249,22 @@ class Picture:
         self, cuts: list[PlacedRoute], moves: list[PlacedRoute], colour: str, name: str, wire: float
     ) -> None:
         """Draw all routes as `_route` does, each kind as one collection."""
-        look = {"edgecolor": colour, "joinstyle": "round"}
+        look: dict[str, Any] = {"edgecolor": colour, "joinstyle": "round"}
         if wire and cuts:
             # (overlaps of cuts show: each is drawn by itself)
             width = wire * self.description["mm_to_points"]
             curves = [_path(route.blocks, 0.001) for route in cuts]
-            kerf = {"alpha": 0.25, "capstyle": "round", "linewidths": width, "zorder": 1, "gid": f"{name}-kerfs"}
+            kerf: dict[str, Any] = {
+                "alpha": 0.25,
+                "capstyle": "round",
+                "linewidths": width,
+                "zorder": 1,
+                "gid": f"{name}-kerfs",
+            }
             self.axes.add_artist(PathCollection(curves, facecolor="none", **look, **kerf))
         for routes, gid, dashes in ((cuts, "cuts", "solid"), (moves, "moves", (0, (4, 2)))):
             if routes:
-                begins = np.cumsum([0, *(len(route.blocks) for route in routes[:-1])])
+                begins = np.cumsum([0, *(len(route.blocks) for route in routes[:-1])]).tolist()
                 curve = _path(_joined(routes), 0.001, begins)
                 self._curve(curve, f"{name}-{gid}", linewidth=0.8, zorder=2, linestyle=dashes, **look)
         starts = np.array([route.start for route in cuts]).reshape(-1, 2) / 1000
@@ -267,9 +274,10 @@ class Picture:
         """The same mark at many places (n × 2, mm), as one; it is so small that they do not cover the part."""
         if len(places):
             room = sqrt((self.high[0] - self.low[0]) * (self.high[1] - self.low[1]) / len(places))
-            part = min(1.0, _MARK * room / shape.vertices.max())
-            vertices = (places[:, None] + part * shape.vertices).reshape(-1, 2)
-            curve = Outline(vertices, np.tile(shape.codes, len(places)))
+            corners, codes = np.asarray(shape.vertices, float), np.asarray(shape.codes)
+            part = min(1.0, _MARK * room / corners.max())
+            vertices = (places[:, None] + part * corners).reshape(-1, 2)
+            curve = Outline(vertices, np.tile(codes, len(places)))
             self._curve(curve, gid, zorder=4, edgecolor=colour, linewidth=part * width)
 
     def _hole(self, point: XY, colour: str, gid: str) -> None:
@@ -289,7 +297,7 @@ class Picture:
             self._marks(Outline([*corners, corners[0]], closed=True), places, f"{name}-stops", colour, width)
             return
         for index, place in enumerate(places, 1):
-            look = {"edgecolor": colour, "linewidth": width, "zorder": 4, "gid": f"{name}-stop-{index}"}
+            look: dict[str, Any] = {"edgecolor": colour, "linewidth": width, "zorder": 4, "gid": f"{name}-stop-{index}"}
             self.axes.add_artist(Polygon(place + corners, fill=False, **look))
 
     def _arrows(self, route: PlacedRoute) -> Iterator[list[XY]]:

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from datetime import date
 from math import ceil, cos, pi, sin
+from typing import Any, overload
 from unicodedata import east_asian_width
 
 import numpy as np
@@ -129,9 +130,9 @@ class _Taken:
         (left, bottom), (right, top) = (low - first).T, (high - first).T
         return sums[right, top] - sums[left, top] - sums[right, bottom] + sums[left, bottom] == 0
 
-    def take(self, low: XY, high: XY) -> None:
+    def take(self, low: np.ndarray, high: np.ndarray) -> None:
         """Take a box."""
-        (left, bottom), (right, top) = self._corners(np.array(low), 0), self._corners(np.array(high), 1)
+        (left, bottom), (right, top) = self._corners(low, 0), self._corners(high, 1)
         self.cells[left:right, bottom:top] = True
 
 
@@ -173,8 +174,8 @@ class SetupSheet:
         self.page = _A4 if rows <= 2 * per_column[0] else _A3
         self.larger = _LARGER if rows <= _ROWS else 1.0
         most = int(_WIDEST * self.page[0] / _COLUMN)
-        per_column = per_column[self.page == _A3]
-        beside = _Table(max(1, min(most, ceil(rows / per_column))), per_column, is_beside=True)
+        in_column = per_column[self.page == _A3]
+        beside = _Table(max(1, min(most, ceil(rows / in_column))), in_column, is_beside=True)
         wide = int((self.page[0] - 2 * _MARGIN) / (self.larger * _COLUMN))
         under = _Table(min(wide, rows), ceil(rows / wide), is_beside=False)
         self._measure()
@@ -252,13 +253,18 @@ class SetupSheet:
             for start, space, a, b in zip(corner, self._room(self.table), self.least, self.most, strict=True)
         )
 
-    def on_paper(self, place: XY) -> XY:
+    @overload
+    def on_paper(self, place: XY) -> XY: ...
+    @overload
+    def on_paper(self, place: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray]: ...
+    def on_paper(self, place: Any) -> Any:  # noqa: ANN401 (numbers, or columns of them)
         """A place of the part on the page, mm; numbers, or columns of them."""
         return place[0] * self.scale + self.shift[0], place[1] * self.scale + self.shift[1]
 
     def _all_on_paper(self, places: Iterable[XY]) -> np.ndarray:
         """Places of the part on the page (n × 2), mm."""
-        return np.column_stack(self.on_paper(np.array(list(places), float).reshape(-1, 2).T))
+        x, y = np.array(list(places), float).reshape(-1, 2).T
+        return np.column_stack(self.on_paper((x, y)))
 
     def _patch(self, curve: paths.Path, unit: float, **look: object) -> None:
         to_page = Affine2D().scale(unit * self.scale).translate(*self.shift)
@@ -302,7 +308,7 @@ class SetupSheet:
             if any(abs(planned.widest) * self.scale > _GRID for planned in self.result.contours):
                 # (elsewhere the wire's path is where the part's lines are)
                 tenths = Affine2D().scale(0.001 * self.scale).translate(*self.shift).scale(10)
-                path = [places / 10 for places in curve.to_polygons(tenths, closed_only=False)]
+                path = [np.asarray(places, float) / 10 for places in curve.to_polygons(tenths, closed_only=False)]
                 self._take_lines(*(np.concatenate([places[rows] for places in path]) for rows in _STEPS))
         holes = self._all_on_paper(hole for hole, _ in self.holes)
         moves = np.stack([holes[:-1], holes[1:]], axis=1)
@@ -337,7 +343,8 @@ class SetupSheet:
         corner, size = text(Phrase("sheet-corner", place=self.low)), 5
         half = self._half_a_box(corner, size)
         self._text((left, under - 5.2), corner, size, _GREY)
-        self.taken.take((left, under - 5.2 - half[1]), (left + 2 * half[0], under - 5.2 + 2 * half[1]))
+        low, high = (left, under - 5.2 - half[1]), (left + 2 * half[0], under - 5.2 + 2 * half[1])
+        self.taken.take(np.array(low), np.array(high))
 
     def _dimension(self, first: XY, second: XY, from_first: XY, from_second: XY, text: str) -> None:
         for p, q in ((first, second), (first, from_first), (second, from_second)):
@@ -355,15 +362,16 @@ class SetupSheet:
         place = (middle[0], middle[1] - 2.4) if is_flat else (middle[0] - 2, middle[1])
         self._text(place, text, 7, _INK, ha="center", va="center", rotation=0 if is_flat else 90)
         half = self._half_a_box(text, 7)[:: 1 if is_flat else -1]
-        self.taken.take(place - half, place + half)
+        self.taken.take(np.array(place) - half, np.array(place) + half)
 
     @staticmethod
     def _half_a_box(text: str, size: float) -> np.ndarray:
         """Half the width and half the height of a text, mm."""
         return np.array([(len(text) * _WIDE * 1.1 + 0.2) * size * _POINT / 2, 0.65 * size * _POINT])
 
-    def _text(self, place: XY, text: str, size: float, colour: str, **how: object) -> None:
-        self.axes.text(*place, **as_it_stands(text), fontsize=size, color=colour, **how)
+    def _text(self, place: XY, text: str, size: float, colour: str, **how: Any) -> None:  # noqa: ANN401
+        x, y = place
+        self.axes.text(x, y, **as_it_stands(text), fontsize=size, color=colour, **how)
 
     def _mark_holes(self) -> int:
         """Mark and number the start holes; returns how many numbers found no room."""
@@ -375,7 +383,7 @@ class SetupSheet:
             self.marked.take(place - radius, place + radius)
         if len(places) > FEW:
             curves = [paths.Path.circle(place, radius) for place, radius in zip(places, radii, strict=True)]
-            look = {"facecolor": "none", "edgecolor": _MARK, "zorder": 5, "gid": "holes"}
+            look: dict[str, Any] = {"facecolor": "none", "edgecolor": _MARK, "zorder": 5, "gid": "holes"}
             self.axes.add_artist(PathCollection(curves, linewidths=widths, **look))
         else:
             for place, radius, width in zip(places, radii, widths, strict=True):
@@ -412,7 +420,9 @@ class SetupSheet:
                 for taken in (self.taken, self.marked):
                     taken.along(line)
                     taken.take(middle - half, middle + half)
-                self._text(middle, number, size, _MARK, ha="center", va="center", gid="number", zorder=6)
+                self._text(
+                    tuple(middle.tolist()), number, size, _MARK, ha="center", va="center", gid="number", zorder=6
+                )
                 return True
         return False
 
@@ -451,8 +461,8 @@ class SetupSheet:
             column, row = divmod(index, table.rows)
             x = left + column * column_width
             if row == 0:
-                contour, manner, cut = (text(Phrase(f"sheet-{name}")) for name in ("contour", "as", "mm-cut"))
-                self._row(x, top, (text(Phrase("sheet-no")), "x, mm", "y, mm", contour, manner, cut), _GREY)
+                contour, manner, share = (text(Phrase(f"sheet-{name}")) for name in ("contour", "as", "mm-cut"))
+                self._row(x, top, (text(Phrase("sheet-no")), "x, mm", "y, mm", contour, manner, share), _GREY)
             hole, planned = self.holes[index]
             # (-0.0001 is 0.000)
             x_, y_ = (f"{round(part, 3) + 0.0:.3f}" for part in hole)

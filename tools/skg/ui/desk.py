@@ -18,7 +18,7 @@ from skg.job.job import Chosen, Job
 from skg.job.matching import Match
 from skg.job.placing import Copies, Place
 from skg.job.wanted import Overrides
-from skg.messages.finding import Finding
+from skg.messages.finding import Finding, Phrase
 from skg.messages.render import speech
 from skg.pipeline.pairing import named
 from skg.pipeline.placing import as_drawn, told_as_drawn
@@ -33,13 +33,14 @@ from skg.pipeline.steps import (
     wanted_of,
     written,
 )
+from skg.planning.nesting import Nesting
 from skg.planning.plan import Asked
 from skg.planning.planned import PlannedContour
 from skg.ui import shown
 from skg.ui.json_text import EARLY, encoded, told
 
 #: The page's name in messages on its requests.
-_PAGE = "the page"
+_PAGE = Phrase("the-page")
 #: Refusals of a drawing that can be read with its open lines.
 _OF_OPEN = ("open-refused", "outline-lost", "no-outline-gap", "no-outline-junctions")
 #: A drawing of so many contours is told of before it is planned.
@@ -64,7 +65,8 @@ class Desk:
         self._before: dict[int, tuple[Asked, PlannedContour]] = {}
         self._plans = shown.Plans()
         #: The placement of that plan: where the drawing lies on the machine.
-        self._placement, self._nesting = Placement(), None
+        self._placement = Placement()
+        self._nesting: Nesting | None = None
         #: Contours that were found again too far from where they were, without their settings, and how far, mm.
         self._doubts: dict[Chosen, float] = {}
         #: The error while no drawing is open.
@@ -120,18 +122,17 @@ class Desk:
 
     def job(self) -> bytes:
         """The job as a file."""
-        if self._job is None:
-            raise self._why
-        return job_files.encoded(self._job)
+        return job_files.encoded(self._asked())
 
     def cut(self, number: int) -> tuple[dict[str, Any], dict[str, bytes]]:
         """Make the tape of a run: what is told of it, and its files."""
-        cuts = cut_all(self._job, self._present(), self._progress)
-        self._cut = number, self._job, cuts
+        job = self._asked()
+        cuts = cut_all(job, self._present(), self._progress)
+        self._cut = number, job, cuts
         files = {"job": self.job()}
         for cut in cuts:
             own = f"{cut.member}/" if cut is not cuts[0] else ""
-            thick, contours = self._job.setup.thickness, cut.result.contours
+            thick, contours = job.setup.thickness, cut.result.contours
             files |= {f"{own}tape": cut.result.data, f"{own}program": cut.result.program.encode("ascii")}
             files[f"{own}holes"] = holes_files.table(contours)
             if thick is not None:
@@ -159,6 +160,12 @@ class Desk:
                 speech.language = before
             return Path(path).read_bytes()
 
+    def _asked(self) -> Job:
+        """The job; a `UserError` where there is none."""
+        if self._job is None:
+            raise self._why
+        return self._job
+
     def _present(self) -> DrawnJob:
         """The drawing; a `UserError` where there is none."""
         if self._drawn is None:
@@ -185,8 +192,8 @@ class Desk:
                 matches = self._matches(self._seen.known.find(job.contours, job.box).found)
                 # (it has places of the file, which the page shows moved near)
                 error.finding = as_drawn(error.finding, Placement(origin=self._seen.reading.noted.by))
-            state = {"job": job_files.to_data(job), "matches": matches, "plan": None, "error": told(error)}
-            return {"drawing": drawing, "state": {"name": job.drawing} | state}
+            state: dict[str, Any] = {"name": job.drawing, "job": job_files.to_data(job), "matches": matches}
+            return {"drawing": drawing, "state": state | {"plan": None, "error": told(error)}}
         self._job = written(job, self._drawn)
         for chosen, match in zip(self._job.contours, self._drawn.matches.found, strict=True):
             if match.is_doubtful:
@@ -204,37 +211,39 @@ class Desk:
 
     def _state(self) -> dict[str, Any]:
         """The part of the state that changes with the job, and the plan of those contours that it changes."""
-        matches = self._matches(self._drawn.matches.found)
-        plan, changed = self._plan()
-        state = {"name": self._job.drawing, "job": job_files.to_data(self._job), "matches": matches, "plan": plan}
+        job, matches = self._asked(), self._matches(self._present().matches.found)
+        plan, changed = self._plan(job, self._present())
+        state = {"name": job.drawing, "job": job_files.to_data(job), "matches": matches, "plan": plan}
         return {"state": state, "changed": changed}
 
     def _matches(self, found: Sequence[Match]) -> list[dict[str, Any]]:
         """The contours of the drawing that those of the job are, as the page is told of it."""
         matches = []
-        for index, (chosen, match) in enumerate(zip(self._job.contours, found, strict=True)):
+        for index, (chosen, match) in enumerate(zip(self._asked().contours, found, strict=True)):
             doubt = self._doubts.get(replace(chosen, overrides=Overrides()))
             moved = round(doubt or match.moved, 4)
             matches.append({"chosen": index, "id": match.number, "moved": moved, "confirm": doubt is not None})
         return matches
 
-    def _plan(self) -> tuple[bytes, bytes]:
+    def _plan(self, asked: Job, drawn: DrawnJob) -> tuple[bytes, bytes]:
         """The plan: of all contours that can be planned, with what is wrong with the others; and as it has changed."""
-        wanted = wanted_of(self._job, self._drawn)
-        tried, contours, errors = list(wanted), [], []
+        wanted = wanted_of(asked, drawn)
+        tried = list(wanted)
+        contours: list[PlannedContour] = []
+        errors: list[UserError] = []
         with _noted(errors):
-            refuse_lost(self._job, self._drawn)
-        job, placement, nesting = self._job, Placement(), self._drawn.nesting
-        with _noted(errors), told_as_drawn(Placement(), *self._drawn.source):
-            placement, nesting = self._drawn.placement(job), self._drawn.placed(job)
-        if nesting is self._drawn.nesting:
+            refuse_lost(asked, drawn)
+        job, placement, nesting = asked, Placement(), drawn.nesting
+        with _noted(errors), told_as_drawn(Placement(), *drawn.source):
+            placement, nesting = drawn.placement(job), drawn.placed(job)
+        if nesting is drawn.nesting:
             # (what cannot be placed is shown as it is drawn)
             job, placement = replace(job, place=Place(), copies=Copies()), Placement()
         if nesting is not self._nesting:
             self._placement, self._nesting, self._before, self._plans = placement, nesting, {}, shown.Plans()
         while not contours and len(errors) < _MOST_ERRORS:
             with _noted(errors):
-                contours = plan_placed(job, self._drawn, tried, self._before)
+                contours = plan_placed(job, drawn, tried, self._before)
                 break
             number = errors[-1].contour
             if number is None:
@@ -243,7 +252,7 @@ class Desk:
             free = replace(tried[number], start=None, entry=None, order=None)
             tried[number] = free if free != tried[number] else replace(free, cut=False)
         self._planned = {planned.number: planned for planned in contours}
-        pattern = self._drawn.pattern(job)
+        pattern = drawn.pattern(job)
         return self._plans.written(contours, wanted, errors, placement, pattern)
 
 

@@ -47,8 +47,8 @@ def told(error: UserError) -> dict[str, Any]:
 
 def said(phrase: Phrase) -> list[str]:
     """A sentence in each of `LANGUAGES`: the page shows that of its own; a finding's has its source and its mark."""
-    write = line if isinstance(phrase, Finding) else text
-    return [visible(write(phrase, Speech(language, Medium.PAGE))) for language in LANGUAGES]
+    ways = (Speech(language, Medium.PAGE) for language in LANGUAGES)
+    return [visible(line(phrase, way) if isinstance(phrase, Finding) else text(phrase, way)) for way in ways]
 
 
 def facts(finding: Finding) -> dict[str, Any]:

@@ -18,7 +18,7 @@ from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib.resources import files
 from threading import BoundedSemaphore, Event, Lock, Thread
-from typing import NoReturn
+from typing import TYPE_CHECKING, NoReturn, TypeVar
 from urllib.parse import parse_qs, unquote
 
 from skg.errors import UserError
@@ -30,6 +30,13 @@ from skg.terminal import remark
 from skg.ui.json_text import encoded, said, told
 from skg.ui.session import Conflict, Session
 from skg.ui.worker import mistake
+
+if TYPE_CHECKING:
+    from _typeshed import WriteableBuffer
+
+#: What a server takes a connection for.
+_Connection = socket.socket | tuple[bytes, socket.socket]
+_Kind = TypeVar("_Kind")
 
 #: The page and what belongs to it: path -> file of `assets`, its type.
 ASSETS = {
@@ -140,23 +147,23 @@ class Server(ThreadingHTTPServer):
         if hasattr(socket, "SO_EXCLUSIVEADDRUSE"):
             self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_EXCLUSIVEADDRUSE, 1)
         socketserver.TCPServer.server_bind(self)
-        self.server_name, self.server_port = self.server_address
+        self.server_name, self.server_port = str(self.server_address[0]), int(self.server_address[1])
 
-    def process_request(self, request: socket.socket, client_address: tuple[str, int]) -> None:
+    def process_request(self, request: _Connection, client_address: tuple[str, int]) -> None:
         """Take a connection, but not more than there may be."""
         if self._free.acquire(blocking=False):
             super().process_request(request, client_address)
         else:
             self.shutdown_request(request)
 
-    def process_request_thread(self, request: socket.socket, client_address: tuple[str, int]) -> None:
+    def process_request_thread(self, request: _Connection, client_address: tuple[str, int]) -> None:
         """Serve a connection to its end."""
         try:
             super().process_request_thread(request, client_address)
         finally:
             self._free.release()
 
-    def handle_error(self, request: socket.socket, client_address: tuple[str, int]) -> None:
+    def handle_error(self, request: _Connection, client_address: tuple[str, int]) -> None:
         """Say nothing of a client that went away."""
 
 
@@ -173,7 +180,7 @@ class _Incoming(io.RawIOBase):
         """Tell that it can be read."""
         return True
 
-    def readinto(self, buffer: memoryview) -> int:
+    def readinto(self, buffer: WriteableBuffer) -> int:
         """Take what there is; a header that is late is a `TimeoutError`."""
         usual = self._connection.gettimeout()
         if self.is_header and self._last is not None:
@@ -497,10 +504,11 @@ def _no_number(text: str) -> NoReturn:
     raise ValueError(f"{text} is no number")
 
 
-def _field(data: dict, name: str, kind: type) -> object:
+def _field(data: dict, name: str, kind: type[_Kind]) -> _Kind:
     """A field of a body."""
     value = data.get(name)
-    if type(value) is not kind:
+    # (True is an int, and no number here)
+    if not isinstance(value, kind) or type(value) is not kind:
         expected = {int: "a whole number", list: "a list", dict: "an object", str: "a text"}[kind]
         raise Refused(HTTPStatus.BAD_REQUEST, f"{name}: expected {expected}")
     return value

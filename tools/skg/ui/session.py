@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from threading import Condition, Event, Lock, Thread
+from typing import overload
 
 from skg.errors import UserError, of_system
 from skg.files import is_same_file, read_bytes, write_bytes
@@ -144,16 +145,17 @@ class Session:
 
     def _keep(self) -> Path:
         """Write the job as it is now into a file of this session's own, beside the drawing."""
-        if self._is_unsafe:
+        drawing = self._path
+        if self._is_unsafe or drawing is None:
             raise UserError(Finding("no-job-yet"))
         with self._keeping:
             data = job_files.encoded(job_files.from_data(self._state["job"], self._state["name"]))
             name = self._names()["job"].removesuffix(JOB)
-            path, number = self._kept or self._path.with_name(f"{name}{UNSAVED}{JOB}"), 1
+            path, number = self._kept or drawing.with_name(f"{name}{UNSAVED}{JOB}"), 1
             try:
                 while not self._kept and path.exists() and path.read_bytes() != data:
                     number += 1
-                    path = self._path.with_name(f"{name}{UNSAVED}-{number}{JOB}")
+                    path = drawing.with_name(f"{name}{UNSAVED}-{number}{JOB}")
                 if not path.exists() or path.read_bytes() != data:
                     write_bytes(str(path), data)
             except OSError as error:
@@ -229,6 +231,10 @@ class Session:
 
     # The state.
 
+    @overload
+    def state(self) -> dict: ...
+    @overload
+    def state(self, after: int | None, patience: float = 0.0, drawn: int | None = None) -> dict | None: ...
     def state(self, after: int | None = None, patience: float = 0.0, drawn: int | None = None) -> dict | None:
         """The state; after some revision the next one, None when there is none for so long (s).
 
@@ -397,6 +403,7 @@ class Session:
     def _watch(self, data: bytes, job: bytes | None) -> None:
         """Read the drawing, and again whenever its file has changed and is at rest."""
         path, before = self._path, self._stamp
+        assert path is not None, "it begins with a drawing"
         self._find_offers()
         with suppress(Ended):
             self._load(data, path.name, job, path)
@@ -482,6 +489,10 @@ class Session:
             raise UserError(Finding("no-run", number=number))
         return self._run
 
+    @overload
+    def run(self, number: int) -> dict: ...
+    @overload
+    def run(self, number: int, after: int | None, patience: float = 0.0) -> dict | None: ...
     def run(self, number: int, after: int | None = None, patience: float = 0.0) -> dict | None:
         """Progress of a run: the news behind what was told last, None when there is none for so long (s)."""
         with self._news:
@@ -507,13 +518,14 @@ class Session:
         run = self._known(number)
         if run.state != "done":
             raise UserError(Finding("run-without-tape", number=number))
-        is_mate = member == DIE and "mate" in run.result and kind != "job"
+        result = run.result or {}
+        is_mate = member == DIE and "mate" in result and kind != "job"
         known = f"{DIE}/{kind}" if is_mate else kind
         if known in run.files:
             return run.files[known]
         if kind == "drill":
             raise UserError(Finding("drill-without-thickness"))
-        tape = tape or (run.result["mate"] if is_mate else run.result)["tape_name"]
+        tape = tape or (result["mate"] if is_mate else result)["tape_name"]
         key = f"{known} {language} {tape}"
         if key not in run.files:
             form = kind.partition(".")[2] or "pdf"
@@ -569,7 +581,7 @@ class Session:
     ) -> dict[str, bytes]:
         """Files of a run by their names, in the order of writing: of a pair both of each kind. Without a name for the
         tape it has the run's."""
-        result = self._known(number).result
+        result = self._known(number).result or {}
         files = {}
         for kind in (kind for kind in SAVED if kind in kinds):
             if kind == "job":
@@ -625,7 +637,7 @@ class Session:
                 raise UserError(Finding("written-twice").within(name))
             if (folder / name).exists() and not (folder / name).is_file():
                 raise UserError(Finding("no-plain-file").within(name))
-        written = []
+        written: list[str] = []
         for name, data in files.items():
             try:
                 write_bytes(str(folder / name), data)

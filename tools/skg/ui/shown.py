@@ -151,7 +151,7 @@ def _plain(text_of_file: str) -> str:
         return visible(text_of_file)
     from ezdxf.tools.text import fast_plain_mtext, plain_text
 
-    return "\n".join(map(visible, fast_plain_mtext(plain_text(text_of_file)).split("\n")))
+    return "\n".join(map(visible, fast_plain_mtext(plain_text(text_of_file), split=True)))
 
 
 def _contour(drawn: DrawnJob, number: int, chosen: Chosen) -> dict[str, Any]:

@@ -11,6 +11,7 @@ from contextlib import contextmanager, suppress
 from multiprocessing.connection import Connection
 from pathlib import Path
 from traceback import extract_tb
+from typing import Any
 
 from skg.cutting.progress import Progress
 from skg.errors import UserError, of_library
@@ -52,7 +53,7 @@ class Worker:
 
     def call(
         self, method: str, *arguments: object, progress: Progress | None = None, early: Early | None = None
-    ) -> object:
+    ) -> Any:  # noqa: ANN401 (each method returns its own)
         """Return what the call returns; what it refuses is a `UserError`, a process that is gone `Ended`.
 
         One that tells its progress takes as long as it takes. `early`: takes what is known before the rest.
@@ -93,14 +94,15 @@ class Worker:
     def _ask(
         self, method: str, arguments: tuple, progress: Progress | None = None, early: Early | None = None
     ) -> object:
-        last = time.monotonic() + SECONDS
+        last, connection, process = time.monotonic() + SECONDS, self._connection, self._process
+        assert connection and process, "it has begun"
         try:
-            self._connection.send((method, arguments))
+            connection.send((method, arguments))
             while True:
-                if not self._connection.poll(None if progress else max(0.0, last - time.monotonic())):
+                if not connection.poll(None if progress else max(0.0, last - time.monotonic())):
                     self.end()
                     raise UserError(Finding("page-too-long", seconds=SECONDS))
-                kind, *values = self._connection.recv()
+                kind, *values = connection.recv()
                 if kind == "done":
                     return values[0]
                 if kind == "failed":
@@ -110,10 +112,10 @@ class Worker:
                 elif kind == "progress" and progress:
                     progress(*values)
         except (EOFError, OSError):
-            self._process.join()
+            process.join()
             if self._is_ended:
                 raise Ended(Finding("cancelled"), True) from None
-            raise Ended(Finding("process-ended", by=_ended_by(self._process.exitcode)), False) from None
+            raise Ended(Finding("process-ended", by=_ended_by(process.exitcode)), False) from None
 
 
 @contextmanager
@@ -129,8 +131,8 @@ def _interrupts_blocked() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _ended_by(code: int) -> str | Phrase:
-    if code < 0:
+def _ended_by(code: int | None) -> str | Phrase:
+    if code is not None and code < 0:
         with suppress(ValueError):
             return signal.Signals(-code).name
     return Phrase("exit-code", code=code)
@@ -178,12 +180,13 @@ def mistake(error: Exception) -> Finding:
 
 def _teller(connection: Connection) -> Progress:
     """Progress as messages, not too many of them."""
-    last = ["", 0.0]
+    before, at = "", 0.0
 
     def tell(stage: str, done: int, total: int) -> None:
+        nonlocal before, at
         now = time.monotonic()
-        if stage != last[0] or done == total or now - last[1] > _PAUSE:
-            last[:] = stage, now
+        if stage != before or done == total or now - at > _PAUSE:
+            before, at = stage, now
             connection.send(("progress", stage, done, total))
 
     return tell
