@@ -308,10 +308,11 @@ def room(squeezed: str, statements: tuple[str, ...] = STATEMENTS) -> int:
 
 def _earlier_fault(good: str, start: str, columns: list[int], dialect: Dialect) -> None:
     """Raise what is wrong with the items that stand before the place where a line stops making sense."""
-    for whole_items in (good, good[: max(good.rfind(","), good.rfind(";"), 0)]):
+    for end in (len(good), *(at for at in reversed(range(len(good))) if good[at] in ",;")):
         try:
-            _parser(dialect).parse(whole_items, start=start)
-        except UnexpectedInput:
+            _parser(dialect).parse(good[:end], start=start)
+            return
+        except UnexpectedInput:  # (that separator stands in an item)
             continue
         except LineFault as fault:
             raise LineFault(fault.code, columns[fault.column]) from None
