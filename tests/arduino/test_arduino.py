@@ -21,7 +21,11 @@ assert _spec and _spec.loader
 release = importlib.util.module_from_spec(_spec)
 _spec.loader.exec_module(release)
 
-pytestmark = pytest.mark.skipif(not shutil.which("g++"), reason="no g++: apt-get install g++")
+#: In one process, which compiles the library once.
+pytestmark = [
+    pytest.mark.skipif(not shutil.which("g++"), reason="no g++: apt-get install g++"),
+    pytest.mark.xdist_group("arduino"),
+]
 
 
 @pytest.fixture(scope="module")
@@ -41,20 +45,28 @@ def run(*command: object) -> str:
 
 @pytest.fixture(scope="module")
 def objects(library: Path) -> list[Path]:
-    """The library's C, compiled."""
+    """The library's C and C++ and what runs a sketch, compiled."""
     made = []
+    for source in (library / "src" / "SKG.cpp", HERE / "run.cpp"):
+        made.append(library.parent / f"{source.stem}.cpp.o")
+        run("g++", *plus_plus(library), "-c", "-o", made[-1], source)
     for source in sorted((library / "src").glob("*.c")):
         made.append(library.parent / f"{source.stem}.o")
         run("gcc", "-std=c11", *WARNINGS, "-c", "-o", made[-1], source)
     return made
 
 
+def plus_plus(library: Path) -> list[str]:
+    """Options of the C++ compiler."""
+    return ["-std=c++17", *WARNINGS, f"-I{HERE}", f"-I{library / 'src'}"]
+
+
 def sketch(library: Path, objects: list[Path], name: str) -> Path:
     """A program that runs an example's sketch."""
     made = library.parent / name
-    ino = library / "examples" / name / f"{name}.ino"
-    sources = ["-x", "c++", ino, library / "src" / "SKG.cpp", HERE / "run.cpp", "-x", "none"]
-    run("g++", "-std=c++17", *WARNINGS, f"-I{HERE}", f"-I{library / 'src'}", *sources, *objects, "-o", made)
+    if not made.exists():
+        ino = library / "examples" / name / f"{name}.ino"
+        run("g++", *plus_plus(library), "-x", "c++", ino, "-x", "none", *objects, "-o", made)
     return made
 
 
