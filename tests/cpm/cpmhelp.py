@@ -6,6 +6,7 @@ What is typed waits in the console until it is asked for; a machine runs until i
 from __future__ import annotations
 
 import functools
+import os
 from pathlib import Path
 
 import cpm80
@@ -13,6 +14,8 @@ import cpm80
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = ROOT / "roms" / "skg.com"
 EXAMPLES = sorted((ROOT / "examples").glob("*.skg"))
+#: Those that run from a file to a file: each so-many-th, all in `make hunt`.
+SOME_EXAMPLES = EXAMPLES[:: int(os.environ.get("SKG_EVERY", "3"))]
 RECORD, CTRL_Z = 128, b"\x1a"
 #: What the paper ends with when a line is awaited: by SKG, by INPUT.
 PROMPTS = (b"\r\n>", b"\r\n? ")
@@ -185,4 +188,4 @@ class Cpm:
         return self.console.paper.endswith((b"\r\nA>", b"\r\nB>"))
 
 
-__all__ = ["EXAMPLES", "PROCESSORS", "SMALL", "Cpm", "text"]
+__all__ = ["EXAMPLES", "PROCESSORS", "SMALL", "SOME_EXAMPLES", "Cpm", "text"]

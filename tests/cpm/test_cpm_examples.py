@@ -1,4 +1,4 @@
-"""SKG.COM under CP/M: all examples, from a file to a file, on one processor and the other in turn."""
+"""SKG.COM under CP/M: each third example (make hunt: all) from file to file, on both processors by turns."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from itertools import cycle
 from pathlib import Path
 
 import pytest
-from cpmhelp import EXAMPLES, PROCESSORS, Cpm, text
+from cpmhelp import PROCESSORS, SOME_EXAMPLES, Cpm, text
 
 
 @pytest.mark.parametrize(
     ("part", "processor"),
-    list(zip(EXAMPLES, cycle(PROCESSORS), strict=False)),
+    list(zip(SOME_EXAMPLES, cycle(PROCESSORS), strict=False)),
     ids=lambda word: getattr(word, "stem", word),
 )
 def test_from_file_to_file(part: Path, processor: str) -> None:

@@ -1,6 +1,6 @@
 """Typed sessions (sessions.py), firmware against model: what a session keeps behind errors, edits, GOTO and RUN.
 
-800 sessions, and 30 at each of the other images; another seed: SKG_SEED=text, more of them: SKG_SESSIONS=number.
+400 sessions, and 30 at each of the other images; another seed: SKG_SEED=text, more of them: SKG_SESSIONS=number.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ SEED = os.environ.get("SKG_SEED", "sessions")
 
 #: The work is cut into shares, so that several test processes can take them.
 SHARES = range(2)
-SESSIONS_A_SHARE = int(os.environ.get("SKG_SESSIONS", "800")) // len(SHARES)
+SESSIONS_A_SHARE = int(os.environ.get("SKG_SESSIONS", "400")) // len(SHARES)
 
 
 def check(number: int, kind: str = "skg") -> None:
@@ -34,7 +34,7 @@ def test_sessions(share: int) -> None:
 
 @pytest.mark.parametrize("kind", [kind for kind in MODELS if kind != "skg"])
 def test_sessions_at_other_images(kind: str) -> None:
-    for number in range(SESSIONS_A_SHARE * 3 // 40):
+    for number in range(SESSIONS_A_SHARE * 3 // 20):
         check(number, kind)
 
 

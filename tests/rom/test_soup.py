@@ -1,6 +1,6 @@
 """Small-integer soup (soup.py), firmware against reference: tape, paper, the mark under a line, error and its LINE.
 
-1,200 programs; another seed: SKG_SEED=text, more of them: SKG_PROGRAMS=number. `make hunt` goes on where this stops
+800 programs; another seed: SKG_SEED=text, more of them: SKG_PROGRAMS=number. `make hunt` goes on where this stops
 (hunt.py says what to do with what it finds). A failure prints each class of difference with a shrunk program.
 """
 
@@ -25,7 +25,7 @@ Record = Callable[[str, object], None]
 
 #: The work is cut into shares, so that several test processes can take them.
 SHARES = range(4)
-PROGRAMS_A_SHARE = int(os.environ.get("SKG_PROGRAMS", "1200")) // len(SHARES)
+PROGRAMS_A_SHARE = int(os.environ.get("SKG_PROGRAMS", "800")) // len(SHARES)
 #: Of all programs, so many may be close calls, and so many endless.
 MOST_ASIDE = 0.002
 MOST_ENDLESS = 0.002
