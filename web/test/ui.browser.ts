@@ -1119,6 +1119,23 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await context.close();
   });
 
+  test("contours that the wire does not get around are told one by one, and left together", async () => {
+    const { url } = await start(
+      "small.dxf",
+      dxf(...box(0, 0, 60, 40), circle(15, 20, 0.08), circle(40, 20, 0.06), circle(30, 20, 6)),
+    );
+    const { page, context } = await visit(url, { viewport: LOW });
+    await drawn(page);
+    await type(page, "field-wire", "0.2");
+    await says(page, "#decide-count", /2/);
+    await says(page, "#decide-text", /contour \d, at \((14\.92|39\.94), 20\)/);
+    await page.getByRole("button", { name: "Leave what is too small" }).click();
+    await page.waitForSelector("#decide", { state: "hidden" });
+    await cut(page);
+    await says(page, "#report", /2 (contours|CIRCLE)/);
+    await context.close();
+  });
+
   test("a punch and its die: a clearance, both tapes and sheets, one or the other is looked at; saved together", async () => {
     const started = await start();
     const { context, page, said } = await visit(started.url);

@@ -70,6 +70,9 @@ const FIELDS: Record<string, Word> = {
   start: "start",
 };
 
+/** Units that drawings without any are in, mostly. */
+const USUAL = ["mm", "inch"];
+
 /** Lines of the report about ends that do not meet. */
 const OF_ENDS = new Set([
   "open-refused",
@@ -99,8 +102,16 @@ export function fixesOf(desk: Desk, line: Told): Fix[] {
   const edit = (after: Edited): void => desk.edit(after);
   const wish = (wanted: Change): void =>
     edit(change(desk.edited, id === undefined ? "all" : { contours: [id] }, wanted, desk.contours));
+  const inUnits = (units: string): Fix => ({
+    label: w("fixUnits", units),
+    act: () => edit(set(desk.edited, "read", "units", units)),
+  });
   const fixes: Fix[] = advice.flatMap(([setting, value]): Fix[] => {
-    if (value === null) return fieldOf(desk, setting, id);
+    if (value === null) {
+      // (what is read in a unit already is left as it is)
+      const units = setting === "units" ? USUAL.filter((each) => wrong || each !== desk.state?.units) : [];
+      return [...units.map(inUnits), ...fieldOf(desk, setting, id)];
+    }
     const label = labelOf(setting, value);
     const part = setting in READ ? "read" : setting in MACHINE ? "machine" : undefined;
     const kind = READ[setting] ?? MACHINE[setting];

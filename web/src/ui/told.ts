@@ -1,6 +1,7 @@
 /** What is told of the job: the reading's lines, the plan's, the cut's; and which of them want a decision. */
 import type { Cutting } from "./cutting.ts";
 import type { Desk } from "./desk.ts";
+import { shown } from "./look.ts";
 import type { Fault, Line, Plan } from "./types.ts";
 import type { WireWays } from "./ways.ts";
 import { both } from "./words.ts";
@@ -94,11 +95,21 @@ export class TellTale {
     return error ? [wrong(error)] : [];
   }
 
-  /** Contours that the wire does not get around, as far as somebody has asked for its ways. */
+  /** Contours that the wire does not get around, as far as somebody has asked for its ways; those that are too small may
+   * be left. */
   #noRoom(): Told[] {
-    return this.#ways.withoutRoom
-      .filter((id) => !this.#desk.planned(id)?.error)
-      .map((contour) => ({ code: "no-way-of-wire", text: both("noWay"), wrong: true, contour, advice: [["offset", null]] }));
+    if (this.#desk.edited.job.machine?.["small"] === "leave") return [];
+    const advice: Told["advice"] = [
+      ["offset", null],
+      ["small", "leave"],
+    ];
+    return this.#ways.withoutRoom.flatMap((contour) => {
+      const planned = this.#desk.planned(contour);
+      const { at } = this.#desk.contours.get(contour) ?? {};
+      if (!at || planned?.error) return [];
+      const text = both("noWay", shown(planned?.number ?? contour + 1), at.map(shown).join(", "));
+      return [{ code: "no-way-of-wire", text, wrong: true, contour, advice }];
+    });
   }
 }
 

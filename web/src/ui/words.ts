@@ -76,7 +76,7 @@ const WORDS = {
   decideCount: ["{0} of {1}", "{0}/{1}"],
   decideBefore: ["The one before", "上一项"],
   decideNext: ["The next one", "下一项"],
-  noWay: ["the wire does not get around this contour", "电极丝绕不过此轮廓"],
+  noWay: ["the wire does not get around contour {0}, at ({1})", "电极丝绕不过轮廓 {0}，位于 ({1})"],
   fixOpenCut: ["Cut open lines", "切割开口线"],
   fixOpenLeave: ["Leave open lines", "不切割开口线"],
   fixOpenAll: ["Cut all lines", "全部切割"],
