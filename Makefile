@@ -130,6 +130,7 @@ lint: venv emu web-lint
 # (A hash seed, since a drawing's classes come out of a set.)
 docs: venv rom emu tools
 	$(PY) asm/rooms.py --headers
+	@PYTHONPATH=tests $(PY) tests/bench.py --page >/dev/null || { echo "A limit is passed: make bench-exact shows which."; exit 1; }
 	@for page in $(PAGES); do echo $(PY) $$page; PYTHONPATH=tests PYTHONHASHSEED=0 $(PY) $$page || exit 1; done
 
 bench: venv emu bench-emu

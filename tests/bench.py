@@ -3,9 +3,9 @@
 Cycles of the 8080 are exact, and so are the host's instructions where valgrind counts them. Seconds of `skg cut` are
 the processor's and have no limit; but it takes no longer than viaConstructor, where `make bench-peer` has that.
 
-    PYTHONPATH=tests python tests/bench.py [--exact]
+    PYTHONPATH=tests python tests/bench.py [--exact | --page]
 
---exact: the cycles alone, in some 20 seconds (CI).
+--exact: the cycles alone, in some 20 seconds (CI). --page: these, written into docs/firmware.md, too (`make docs`).
 """
 
 from __future__ import annotations
@@ -27,6 +27,14 @@ MIX, BENCH = ROOT / "build" / "emu" / "mix.com", ROOT / "build" / "emu" / "bench
 #: The core carries out an instruction of the 8080 in so many times fewer of the host's than superzazu's 8080 (79.4 of
 #: them, gcc 12, -O2, in mix.asm), which tests/emu/plain8080.c stands for: that takes 100.7.
 TIMES_FEWER, PLAIN_FOR_PEER = 6.5, 79.4 / 100.7
+#: The table of the page: what is measured, by its words there.
+PAGE = ROOT / "docs" / "firmware.md"
+STATED = {
+    "a block of the examples": "a block, mean of the examples",
+    "a node of FIT, in the part where it is most": "a node of FIT, in the part where it is most",
+    "a line that LOAD takes": "a line that LOAD takes",
+    "sine of −180 to 180 degrees": "FSIN, mean",
+}
 #: Cycles of two runs, of which the difference counts.
 SHORT, LONG = 10_000_000, 30_000_000
 
@@ -76,13 +84,26 @@ def _instructions(core: str) -> float:
     return (host2 - host) / (guest2 - guest)
 
 
+def write(rows: list[Measured]) -> None:
+    """The table of the page, as it is now."""
+    text, measured = PAGE.read_text(), {row.what: row for row in rows}
+    for words, what in STATED.items():
+        row = f"| {words} | {measured[what].value:,.0f} | {measured[what].limit:,} |"
+        text, count = re.subn(rf"^\| {re.escape(words)} \|.*$", row, text, flags=re.M)
+        assert count == 1, words
+    PAGE.write_text(text)
+
+
 def main() -> int:
     """The exit code."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--exact", action="store_true", help="cycles of the 8080 alone")
+    parser.add_argument("--page", action="store_true", help="these, and into docs/firmware.md")
     options = parser.parse_args()
     rows = benches("floats", "rom", "drive")
-    if not options.exact:
+    if options.page:
+        write(rows)
+    elif not options.exact:
         rows += [*emulator(), *benches("tools")]
     return judge(rows)
 
