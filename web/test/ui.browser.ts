@@ -1136,6 +1136,15 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await context.close();
   });
 
+  test("a drawing of an unlikely size, without units, is read in inches by a click", async () => {
+    const { url } = await start("inch.dxf", dxf(...box(0, 0, 2, 1.5)));
+    const { page, context } = await visit(url, { viewport: LOW, locale: "zh-CN" });
+    await page.getByRole("button", { name: "按 英寸 读取" }).click();
+    await says(page, "#size", /50\.8 × 38\.1/);
+    await page.waitForSelector("#decide", { state: "hidden" });
+    await context.close();
+  });
+
   test("a punch and its die: a clearance, both tapes and sheets, one or the other is looked at; saved together", async () => {
     const started = await start();
     const { context, page, said } = await visit(started.url);

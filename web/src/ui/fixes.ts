@@ -103,7 +103,7 @@ export function fixesOf(desk: Desk, line: Told): Fix[] {
   const wish = (wanted: Change): void =>
     edit(change(desk.edited, id === undefined ? "all" : { contours: [id] }, wanted, desk.contours));
   const inUnits = (units: string): Fix => ({
-    label: w("fixUnits", units),
+    label: w("fixUnits", find(units) ?? units),
     act: () => edit(set(desk.edited, "read", "units", units)),
   });
   const fixes: Fix[] = advice.flatMap(([setting, value]): Fix[] => {
@@ -153,7 +153,7 @@ function repairs(desk: Desk, { place }: Told, kinds: typeof KINDS): Fix[] {
 
 function labelOf(setting: string, value: string): string {
   const word = LABELS[`${setting}=${value}`] ?? LABELS[setting];
-  return word ? w(word, value) : `${find(FIELDS[setting] ?? "") ?? setting}: ${value}`;
+  return word ? w(word, (setting === "units" && find(value)) || value) : `${find(FIELDS[setting] ?? "") ?? setting}: ${value}`;
 }
 
 /** A field gets the caret, for the contour that is meant or for all. */
