@@ -74,9 +74,8 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         items[:] = [item for item in items if not item.get_closest_marker("wording")]
 
 
-def pytest_collection_finish() -> None:
-    """Thousands of tests are alive to the end: to look through them for garbage, five times at the end,
-    takes a twentieth of all."""
+def pytest_sessionfinish() -> None:
+    """Leave thousands of tests out of what pytest looks through for garbage, five times at the end: a second each."""
     gc.freeze()
 
 
