@@ -109,6 +109,7 @@ def test_damaged_files(run: Run, tmp_path: Path, setups: Setups, data: bytes, co
     made = tmp_path / "a.3b"
     done = run("cut", part(tmp_path), "-o", made, "--setup", "bad", "--json")
     error = json.loads(done.stderr)["error"]
+    assert error["severity"] == "error"
     assert done.exit_code == 2 and error["code"] == code and str(setups.folder / "bad.toml") in str(error["source"])
     assert not made.exists()
 

@@ -352,7 +352,7 @@ def command(
         if not in_json:
             error.way = way
             raise
-        click.echo(json.dumps({"error": data(error.finding, way)}), err=True)
+        click.echo(json.dumps({"error": data(error.finding, way) | {"severity": "error"}}), err=True)
         sys.exit(2)
     if report is None:
         return
