@@ -231,7 +231,10 @@ MISTAKES = {
     "only the last node": ("for n in passed)", "for n in passed[-1:])"),
     "only the first node": ("for n in passed)", "for n in passed[:1])"),
     "the R of the node that comes": ("self._span(self.kept, a)", "self._span(self.kept, replace(a, offset=b.offset))"),
-    "the last span is lost": ("if self.after:\n            self._span", "if not self.nodes:\n            self._span"),
+    "the last span is lost": (
+        "is not None:\n            self._span(self.kept, self.after[-1])",
+        "is None:\n            pass",
+    ),
 }
 #: Programs that the mistakes are looked for in, and of them so many may hang on a close call of TOL.
 TOL_PROGRAMS, MOST_CLOSE = 120, 4
