@@ -335,6 +335,7 @@ def test_a_program_of_another_hand(run: Run, tmp_path: Path) -> None:
     assert done.exit_code == 1 and says(done.stdout, "%") and says(done.stdout, "O")
 
 
+@pytest.mark.wording
 def test_page(tmp_path: Path) -> None:
     for name in ("docs", "examples"):
         (tmp_path / name).symlink_to(ROOT / name)
