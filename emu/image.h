@@ -22,7 +22,7 @@ uint8_t *image_read(const char *path, size_t limit, size_t *length, char *error,
  * Returns 0, or -1 with `error` as above. */
 int image_rom(const char *path, uint8_t *rom, bool *given, size_t rom_size, char *error, size_t size);
 
-/* What is wrong with an image; tools/skg/board/emulator.py has the same order. */
+/* Faults of an image; tools/skg/board/emulator.py has the same order. */
 enum image_fault {
     IMAGE_GOOD,
     IMAGE_LENGTH,

@@ -12,7 +12,7 @@ export interface Filmed {
   picture(onto?: HTMLCanvasElement): HTMLCanvasElement;
   /** Puts the wire at a part of its way, 0 to 1, and draws it. */
   at(part: number): void;
-  /** What is drawn: another one is another tape. */
+  /** The present tape: another object is another tape. */
   readonly layout: Layout;
 }
 

@@ -45,7 +45,7 @@ export interface Everything {
   kept: Kept | null;
   settings: Partial<Settings>;
   tape: string;
-  /** What made the tape, and its lines with their places, where it is none of a file's. */
+  /** The origin of a tape that is none of a file's, and its lines with their places. */
   made?: Maker;
   lines?: PunchedLine[];
   /** The tape was made in another way than by one RUN; the line of RUN n. */

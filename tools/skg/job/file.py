@@ -123,7 +123,7 @@ TABLES = {
     "price": _PRICE,
 }
 _LISTS = {"layer": _LAYER, "contour": _CONTOUR}
-#: What each table is made into: fields of a job.
+#: The fields of a job that each table is made into.
 _PARTS: dict[str, dict[str, Callable[..., Any]]] = {
     "read": {"read": partial(ReadOptions, open=None)},
     "machine": {"setup": Setup, "board": BoardOptions, "policy": Policy},

@@ -71,14 +71,14 @@ class BoardOptions:
 
 @dataclass(frozen=True)
 class Policy:
-    """What becomes of contours without room (`small`, one of `SMALL`), and of those whose wire comes into others
+    """The policy on contours without room (`small`, one of `SMALL`), and on those whose wire comes into others
     (`into`, one of `INTO`); empty where nobody is asked."""
 
     small: str = SMALL[0]
     into: str = INTO[0]
 
 
-#: What they are where nothing is given.
+#: Their usual values.
 USUAL_SETUP, USUAL_BOARD, USUAL_POLICY = Setup(), BoardOptions(), Policy()
 #: The policy of tapes that are made without a drawing: what has no room is refused, and no setting helps.
 UNASKED = Policy("", "")

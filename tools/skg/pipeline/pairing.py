@@ -112,7 +112,7 @@ def _lost(drawn: Contour, made: Contour, size: float) -> XY | None:
 
 
 def growth(want: CutSettings, member: str) -> float:
-    """How much larger than drawn one of both is on each side, mm; smaller: negative."""
+    """The growth of one of both on each side over the drawing, mm; smaller: negative."""
     if want.clearance_on != member:
         return 0.0
     return -(want.clearance or 0.0) if member == PUNCH else want.clearance or 0.0

@@ -68,7 +68,7 @@ class DrawnJob:
 
     @property
     def source(self) -> tuple[str | Phrase, ...]:
-        """What messages on it begin with: its name, and how far it was moved near, as the places in them are."""
+        """The source of messages on it: its name, and its move near, as the places in them are moved."""
         by = self.reading.noted.by
         return (self.name,) if by == (0.0, 0.0) else (self.name, Phrase("moved-by", by=by))
 

@@ -43,13 +43,13 @@ _ROOMY = 1.5
 _BESIDE = 0.1
 #: A start hole that is given may be nearer to a contour than R by this, mm.
 _NEAR = 1e-3
-#: What is crossed so near to an entry is the contour that is entered there, mm.
+#: A crossing so near to an entry is that with the entered contour, mm.
 _AT_ENTRY = 0.01
 #: A lead that is an arc is no smaller, mm; chords of a contour lie inside of it by the rest of this, of the radius.
 _LEAST_ARC, _ROUND = 0.05, 0.998
 
 
-#: What most contours have.
+#: The rung, the remarks and the tabs of most contours.
 _TOP, _NO_REMARKS, _NO_TABS = Rung(), Remarks(), Tabs()
 
 #: The settings of a contour, and its given start hole.

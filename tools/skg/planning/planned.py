@@ -364,7 +364,7 @@ class PlannedContour:
         return replace(run, edges=edges, offset=0.0, into=into, out=out)
 
 
-#: What `changed` takes over: not what is worked out of it once.
+#: The fields that `changed` takes over, without those that are derived from them.
 _FIELDS = tuple(each.name for each in fields(PlannedContour))
 
 

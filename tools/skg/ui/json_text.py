@@ -13,7 +13,7 @@ from skg.wording import visible
 
 #: The drawing in an answer, where it was told of before.
 EARLY = "early"
-#: What stands between two values.
+#: The separator of two values.
 _BETWEEN = "\0"
 _ENCODER = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"), allow_nan=False)
 

@@ -34,7 +34,7 @@ from skg.ui.worker import mistake
 if TYPE_CHECKING:
     from _typeshed import WriteableBuffer
 
-#: What a server takes a connection for.
+#: A connection as socketserver has it: a stream, or a datagram with its socket.
 _Connection = socket.socket | tuple[bytes, socket.socket]
 _Kind = TypeVar("_Kind")
 
