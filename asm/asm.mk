@@ -9,8 +9,7 @@ assembler:
 	@$(PYTHON) asm/build.py --has-z88dk || $(MAKE) asm80
 
 rom: assembler
-	@$(PYTHON) asm/build.py --sym roms/skg.sym --listing build/skg.lst roms/skg
-	@for image in $$($(PYTHON) asm/images.py); do $(PYTHON) asm/build.py --image $$image roms/$$image || exit 1; done
+	@$(PYTHON) asm/build.py --all --sym roms/skg.sym --listing build/skg.lst roms
 
 # The standard ROM's listing alone, for who reads it and for the fuzzer.
 build/skg.lst: $(wildcard asm/*.asm asm/*/*.asm asm/*.py asm/words.txt) | assembler

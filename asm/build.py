@@ -2,10 +2,12 @@
 """Assemble the SKG firmware and say where the bytes went.
 
     asm/build.py [--image NAME] [--sym FILE] [--listing FILE] OUT
+    asm/build.py --all [--sym FILE] [--listing FILE] FOLDER
     asm/build.py --has-z88dk
 
-writes OUT.bin (padded to 8,192 bytes) and OUT.hex; the symbols go to one FILE (lines of value, name and, of a label,
-its source file below asm/), the assembler's listing to the other. asm/images.py says which files an image is made of.
+writes OUT.bin (padded to 8,192 bytes) and OUT.hex, or every image under its name into FOLDER; the symbols go to one
+FILE (lines of value, name and, of a label, its source file below asm/), the assembler's listing to the other: with
+--all those of the standard image. asm/images.py says which files an image is made of.
 Of the standard image the bytes are printed file by file; of a variant in one line.
 The assembler is z88dk-z80asm when it is on the PATH (unless SKG_ASM=asm80), else asm80 from asm/node_modules. With
 --has-z88dk the exit code says whether it is the first.
@@ -20,7 +22,9 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Mapping
 from pathlib import Path
+from typing import NamedTuple
 
 ASM = Path(__file__).resolve().parent
 sys.path.insert(0, str(ASM))  # for tests, which load this file from elsewhere
@@ -38,8 +42,8 @@ LEAST_JUMPS = 50
 LEAST_RETURNS = 25
 #: Likewise of facts in the sources.
 LEAST_FACTS = 25
-#: Node, as asm80 is soonest done: with its lines in memory at once.
-NODE = ("node", "--max-semi-space-size=64", "--require", str(ASM / "operands.js"))
+#: asm80, soonest done with its lines in memory at once.
+ASM80 = ("node", "--max-semi-space-size=64", str(ASM / "asm80.js"))
 #: Words that an assembler has for itself, so that no label or equate may be called so: each keyword of z88dk's
 #: z80asm, release 2.4 and August 2026, of which `-m8080_strict` refuses the definition or a use (MB is one of the
 #: later only). The registers and PSW are asm80's words too.
@@ -76,21 +80,12 @@ def top_file(files: list[str], include: str) -> str:
     return "\n".join([*lines, "ZBEND:", ""])
 
 
-def run(command: list[str], cwd: Path) -> str:
+def run(command: list[str], cwd: Path) -> None:
     """Run an assembler; a failure ends the build with what it said."""
     result = subprocess.run(command, cwd=cwd, capture_output=True, text=True)
-    text = result.stdout + result.stderr
-    if result.returncode or "ERROR" in text:
-        fail(f"the assembler says {complaint(text)}")
-    return text
-
-
-def complaint(text: str) -> str:
-    """What an assembler has against the sources, in one line where it is asm80: its own stack stands above that."""
-    if found := re.search(r"^ERROR\s+(.+)\n\s*at line\s+(\d+)\s*\n\s*>>>\s*(.+)", text, re.M):
-        return f"{found[1].strip()}: line {found[2]} of its file, {' '.join(found[3].split())}"
-    kept = [line for line in text.splitlines() if line.strip() and not line.startswith(("Processing", "npm"))]
-    return "\n  ".join(["", *kept[-12:]])
+    if result.returncode:
+        said = [line for line in (result.stdout + result.stderr).splitlines() if line.strip()]
+        fail("the assembler says " + "\n  ".join(said[-12:]))
 
 
 def z88dk_assembler() -> str | None:
@@ -177,33 +172,52 @@ def with_calls(file: str, text: str) -> str:
     return "\n".join([*lines, ""])
 
 
-def assemble(texts: dict[str, str], work: Path) -> tuple[bytes, dict[str, int], str]:
-    """Image, symbols and listing of the given sources, assembled in the empty directory `work`."""
-    for file, text in texts.items():
-        (work / f"{file}.asm").write_text(text)
-    if z88dk := z88dk_assembler():
-        (work / "top.asm").write_text(top_file([*texts], 'INCLUDE "{}"'))
-        run([z88dk, "-m8080_strict", "-b", "-l", "-m", "top.asm"], work)
+class Built(NamedTuple):
+    """An image with the sources that it is made of, by file, its symbols and the assembler's listing."""
+
+    image: bytes
+    symbols: dict[str, int]
+    listing: str
+    texts: dict[str, str]
+
+
+def assemble(images: Mapping[str, dict[str, str]], work: Path) -> dict[str, Built]:
+    """The images of some sources by name, assembled in the empty directory `work`."""
+    z88dk = z88dk_assembler()
+    include = 'INCLUDE "{}"' if z88dk else "        .include {}"
+    for name, texts in images.items():
+        (work / name).mkdir()
+        for file, text in {**texts, "top": top_file([*texts], include)}.items():
+            (work / name / f"{file}.asm").write_text(text)
+    if z88dk:
+        for name in images:
+            run([z88dk, "-m8080_strict", "-b", "-l", "-m", "top.asm"], work / name)
+    elif (ASM / "node_modules" / "asm80").exists():
+        run([*ASM80, *images], work)
+    else:
+        fail("no assembler: neither z88dk's z80asm on the PATH nor asm80 in asm/node_modules (make asm80)")
+    return {name: assembled(texts, work / name, bool(z88dk)) for name, texts in images.items()}
+
+
+def assembled(texts: dict[str, str], folder: Path, z88dk: bool) -> Built:
+    """What the assembler has written into the folder of an image."""
+    image = (folder / "top.bin").read_bytes()
+    if z88dk:
         pattern = re.compile(r"^(\w+)\s*=\s*\$([0-9A-F]+)", re.M)
-        found = pattern.findall((work / "top.map").read_text())
+        found = pattern.findall((folder / "top.map").read_text())
         symbols = {name.upper(): int(value, 16) for name, value in found if not name.startswith("__")}
         add_unused(symbols, texts)
-        listings = [path for suffix in (".lis", ".lst") if (path := work / f"top{suffix}").exists()]
+        listings = [path for suffix in (".lis", ".lst") if (path := folder / f"top{suffix}").exists()]
         if not listings:
-            fail(f"{z88dk} made no listing, top.lis or top.lst")
-        listing = z88dk_listing(listings[0].read_text(), (work / "top.bin").read_bytes())
+            fail("z88dk's assembler made no listing, top.lis or top.lst")
+        listing = z88dk_listing(listings[0].read_text(), image)
     else:
-        asm80 = ASM / "node_modules" / "asm80" / "asm80.js"
-        if not asm80.exists():
-            fail("no assembler: neither z88dk's z80asm on the PATH nor asm80 in asm/node_modules (make asm80)")
-        (work / "top.asm").write_text(top_file([*texts], "        .include {}"))
-        run([*NODE, str(asm80), "-m", "I8080", "-t", "bin", "top.asm"], work)
-        listing = (work / "top.lst").read_text()
+        listing = (folder / "top.lst").read_text()
         pattern = re.compile(r"^([A-Z_]\w*):\s+([0-9A-F]{4}) DEFINED", re.M)
         symbols = {name: int(value, 16) for name, value in pattern.findall(listing)}
     if "ZBEND" not in symbols:
         fail("the assembler's symbols cannot be read")
-    return (work / "top.bin").read_bytes()[symbols["ORIGIN"] : symbols["ZBEND"]], symbols, listing
+    return Built(image[symbols["ORIGIN"] : symbols["ZBEND"]], symbols, listing, texts)
 
 
 def check_words(texts: dict[str, str]) -> None:
@@ -275,22 +289,24 @@ def intel_hex(image: bytes, origin: int) -> str:
     return "\n".join([*records, ":00000001FF", ""])
 
 
-def build(name: str) -> tuple[bytes, dict[str, int], str, dict[str, str]]:
-    """Image, symbols, listing and sources of an image of IMAGES; ends the build when something is wrong with it."""
-    texts = sources(IMAGES[name])
-    check_words(texts)
+def build(*names: str) -> dict[str, Built]:
+    """Images of IMAGES by name; ends the build when something is wrong with one."""
+    images = {name: sources(IMAGES[name]) for name in names}
+    for texts in images.values():
+        check_words(texts)
     with tempfile.TemporaryDirectory() as work:
-        image, symbols, listing = assemble(texts, Path(work))
-    check_jumps(listing, symbols)
-    check_returns(texts, symbols)
-    check_facts(texts, symbols)
-    return image, symbols, listing, texts
+        built = assemble(images, Path(work))
+    for _, symbols, listing, texts in built.values():
+        check_jumps(listing, symbols)
+        check_returns(texts, symbols)
+        check_facts(texts, symbols)
+    return built
 
 
-def bytes_of(texts: dict[str, str], symbols: dict[str, int]) -> dict[str, int]:
-    """Bytes of each source file of an assembled image."""
-    marks = [symbols[f"ZB{file.upper()}"] for file in texts] + [symbols["ZBEND"]]
-    return {file: end - begin for file, begin, end in zip(texts, marks, marks[1:], strict=False)}
+def bytes_of(built: Built) -> dict[str, int]:
+    """Bytes of each source file of an image."""
+    marks = [built.symbols[f"ZB{file.upper()}"] for file in built.texts] + [built.symbols["ZBEND"]]
+    return {file: end - begin for file, begin, end in zip(built.texts, marks, marks[1:], strict=False)}
 
 
 def account(name: str, size: int) -> str:
@@ -315,10 +331,27 @@ def write(path: Path, data: bytes) -> None:
     path.write_bytes(data)
 
 
+def write_image(name: str, built: Built, out: Path) -> None:
+    """The files of an image, by the name of `out`."""
+    forms, image = IMAGES[name].forms, built.image
+    padded = image.ljust(ROM_SIZE, b"\xff") if ".bin" in forms else image
+    for form in forms:
+        data = intel_hex(padded, built.symbols["ORIGIN"]).encode() if form == ".hex" else padded
+        write(out.with_suffix(form), data)
+
+
+def write_symbols(built: Built, path: Path) -> None:
+    """The table of an image's names."""
+    places = label_files(built.texts)
+    names = sorted((v, k) for k, v in built.symbols.items() if not k.startswith("ZB"))
+    write(path, "\n".join([*(f"{v:04X} {k} {places.get(k, '')}".rstrip() for v, k in names), ""]).encode())
+
+
 def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(description="assemble the SKG firmware")
     parser.add_argument("--image", choices=IMAGES, default=STANDARD)
+    parser.add_argument("--all", action="store_true")
     parser.add_argument("--sym", type=Path, metavar="FILE")
     parser.add_argument("--listing", type=Path, metavar="FILE")
     parser.add_argument("--has-z88dk", action="store_true")
@@ -328,24 +361,20 @@ def main() -> None:
         sys.exit(not z88dk_assembler())
     if not args.out:
         parser.error("the name of the image is missing: OUT")
-    image, symbols, listing, texts = build(args.image)
-    forms = IMAGES[args.image].forms
-    if args.image == STANDARD:
-        for file, size in bytes_of(texts, symbols).items():
-            print(f"  {file + '.asm':14} {size:5}")
-    print(account(args.image, len(image)))
-    if IMAGES[args.image].restarts and len(image) > ROM_SIZE:
-        fail(too_many(args.image, len(image) - ROM_SIZE))
-    padded = image.ljust(ROM_SIZE, b"\xff") if ".bin" in forms else image
-    for form in forms:
-        write(args.out.with_suffix(form), intel_hex(padded, symbols["ORIGIN"]).encode() if form == ".hex" else padded)
+    images = build(*IMAGES) if args.all else build(args.image)
+    for name, built in images.items():
+        if name == STANDARD:
+            for file, size in bytes_of(built).items():
+                print(f"  {file + '.asm':14} {size:5}")
+        print(account(name, len(built.image)))
+        if IMAGES[name].restarts and len(built.image) > ROM_SIZE:
+            fail(too_many(name, len(built.image) - ROM_SIZE))
+    for name, built in images.items():
+        write_image(name, built, args.out / name if args.all else args.out)
     if args.listing:
-        write(args.listing, listing.encode())
+        write(args.listing, images[args.image].listing.encode())
     if args.sym:
-        places = label_files(texts)
-        names = sorted((v, k) for k, v in symbols.items() if not k.startswith("ZB"))
-        lines = [f"{v:04X} {k} {places.get(k, '')}".rstrip() for v, k in names]
-        write(args.sym, "\n".join([*lines, ""]).encode())
+        write_symbols(images[args.image], args.sym)
 
 
 if __name__ == "__main__":

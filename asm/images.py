@@ -9,8 +9,6 @@ has are a set in words.txt.
 A file stands in asm/ itself when every machine has it; in asm/boards/ what there is of a machine (memory, ports, chips,
 teletype, punch, reader, handshake, reset, CP/M); in asm/variants/ what takes the place of a part of the language or of
 the tape. An image names files alone: no two have the same name.
-
-    asm/images.py     prints the names of the variants of the standard image
 """
 
 from __future__ import annotations
@@ -130,7 +128,3 @@ def seams(images: Mapping[str, Image] = IMAGES) -> dict[str, str]:
     return {
         file: seam for image in images.values() for seam in SEAMS for file in getattr(image, seam) if file not in common
     }
-
-
-if __name__ == "__main__":
-    print(*(name for name in IMAGES if name != STANDARD), sep="\n")

@@ -4,19 +4,15 @@ from __future__ import annotations
 
 import re
 import subprocess
-import sys
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from romhelp import BLOCK, BOARDS, ROOT, RUN_LIMIT, SOME_EXAMPLES, Board, image, saved_tape
-from test_build import builder
+from test_build import build, built
 from test_examples import EXAMPLES, stem
 
 from skg.board.emulator import Machine
-
-sys.path.insert(0, str(ROOT / "asm"))
-import build
 
 PAGE = (ROOT / "docs" / "boards.md").read_text()
 CTRL_C, XON, DC2, XOFF, DC4, CTRL_Z = 3, 0x11, 0x12, 0x13, 0x14, 26
@@ -217,8 +213,8 @@ def test_board_of_ones_own(kind: str, tmp_path: Path) -> None:
     other = {"skg-searle": "skg-rc2014-sio", "skg-imsai": "skg-8251"}[kind]
     texts = build.sources(replace(image, ports=tuple(name for name in image.ports if name != ports)))
     texts = {name: texts.get(name, files.get(name)) for name in image.files()}
-    code, symbols, _ = build.assemble(texts, tmp_path)
-    made, theirs, _, _ = builder.build(other)
+    code, symbols, *_ = build.assemble({kind: texts}, tmp_path)[kind]
+    made, theirs, *_ = built(other)
     names = ("TTYST", "TTYDT", "PUNST", "PUNDT")
     port_of = {theirs[name]: symbols[name] for name in names}
     differing = [(a, b) for a, b in zip(made, code, strict=False) if a != b]

@@ -8,7 +8,6 @@ and of the drive's DNEXT and DNEXZ.
 from __future__ import annotations
 
 import functools
-import importlib.util
 import re
 import subprocess
 import sys
@@ -21,21 +20,15 @@ import pytest
 from facthelp import pattern, says
 from romhelp import ROOT
 
-from skg.board import symbols
-
 sys.path.insert(0, str(ROOT / "asm"))
+import build  # noqa: E402
 import rooms  # noqa: E402
-
-_spec = importlib.util.spec_from_file_location("builder", ROOT / "asm" / "build.py")
-assert _spec and _spec.loader
-builder = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(builder)
 
 ROMS = ROOT / "roms"
 ROM_SIZE = 8192
 #: Every image, and what of it is committed.
 VARIANTS = {
-    name: (*image.forms, ".sym") if name == builder.STANDARD else image.forms for name, image in builder.IMAGES.items()
+    name: (*image.forms, ".sym") if name == build.STANDARD else image.forms for name, image in build.IMAGES.items()
 }
 #: Those that are ROMs: of the same size, filled up.
 ROM_IMAGES = [name for name, forms in VARIANTS.items() if ".bin" in forms]
@@ -193,20 +186,23 @@ class Line:
 
 #: The headers of all images' files.
 every = functools.cache(rooms.every)
-#: The assembler takes a second an image: once for all tests, which stay in one process.
-builder.build = functools.cache(builder.build)
+#: All images are assembled once, for all tests, which stay in one process.
+build.build = functools.cache(build.build)
 pytestmark = pytest.mark.xdist_group("images")
 
 
+def built(name: str) -> build.Built:
+    """What is made of the sources."""
+    return build.build(*VARIANTS)[name]
+
+
 @functools.cache
-def built(name: str) -> dict[str, bytes]:
-    """The image built anew, and its listing and symbols: contents by suffix."""
+def written() -> dict[str, bytes]:
+    """What `make rom` writes, by the files' names."""
     with tempfile.TemporaryDirectory() as scratch, pytest.MonkeyPatch.context() as patch:
-        out = Path(scratch) / name
-        files = ["--sym", out.with_suffix(".sym"), "--listing", out.with_suffix(".lst"), out]
-        patch.setattr(sys, "argv", ["build.py", "--image", name, *map(str, files)])
-        builder.main()
-        return {suffix: out.with_suffix(suffix).read_bytes() for suffix in (*VARIANTS[name], ".sym", ".lst")}
+        patch.setattr(sys, "argv", ["build.py", "--all", "--sym", f"{scratch}/skg.sym", scratch])
+        build.main()
+        return {path.name: path.read_bytes() for path in Path(scratch).iterdir()}
 
 
 def memory(name: str) -> bytes:
@@ -232,14 +228,13 @@ def listed(name: str) -> list[Line]:
     """Lines of the assembler's listing that made bytes."""
     names = "|".join({"DB", "DW", "DS"} | {text.split()[0] for text, _ in OPCODES.values()})
     shape = re.compile(rf"([0-9A-F]{{4}})   ((?:[0-9A-F]{{2}} )+) *(?:\w+: +)?({names})(?=   |$)([^;]*)")
-    found = map(shape.match, built(name)[".lst"].decode().splitlines())
+    found = map(shape.match, built(name).listing.splitlines())
     return [Line(int(m[1], 16), bytes.fromhex(m[2]), m[3], m[4].strip()) for m in found if m]
 
 
-@functools.cache
 def labels(name: str) -> dict[str, int]:
     """Addresses by label, of the image built anew."""
-    return symbols(built(name)[".sym"].decode())
+    return built(name).symbols
 
 
 def test_nothing_fetched_is_committed() -> None:
@@ -251,28 +246,27 @@ def test_nothing_fetched_is_committed() -> None:
 
 
 def test_every_image_is_known() -> None:
-    assert {path.name for path in ROMS.iterdir()} == {
-        Path(name).with_suffix(suffix).name for name, suffixes in VARIANTS.items() for suffix in suffixes
-    }
+    files = {Path(name).with_suffix(suffix).name for name, suffixes in VARIANTS.items() for suffix in suffixes}
+    assert {path.name for path in ROMS.iterdir()} == files == set(written())
 
 
 @pytest.mark.parametrize("name", VARIANTS)
 def test_built_anew_it_is_the_same(name: str) -> None:
     for suffix in VARIANTS[name]:
         committed = (ROMS / name).with_suffix(suffix)
-        assert built(name)[suffix] == committed.read_bytes(), f"{committed}: make rom"
+        assert written()[committed.name] == committed.read_bytes(), f"{committed}: make rom"
 
 
 @pytest.mark.parametrize("name", VARIANTS)
 def test_room(name: str) -> None:
     """No file is longer than its header allows; where restarts are CALLs that counts for an image's own files."""
     images = every()
-    _, names, _, texts = builder.build(name)
+    image = built(name)
     allowed = {file: space for file, room in images[name].items() if (space := rooms.room_of(room)) is not None}
-    sizes = {file: size for file, size in builder.bytes_of(texts, names).items() if file in allowed}
+    sizes = {file: size for file, size in build.bytes_of(image).items() if file in allowed}
     assert sum(sizes.values()) > 7000
-    if not builder.IMAGES[name].restarts:
-        others = {file for other, files in images.items() if builder.IMAGES[other].restarts for file in files}
+    if not build.IMAGES[name].restarts:
+        others = {file for other, files in images.items() if build.IMAGES[other].restarts for file in files}
         sizes = {file: size for file, size in sizes.items() if file not in others}
         assert bool(sizes) == bool(set(allowed) - others)
     assert {file: f"{n} of {allowed[file]} bytes" for file, n in sizes.items() if n > allowed[file]} == {}
@@ -412,6 +406,11 @@ def refused(capsys: pytest.CaptureFixture[str], check: Callable[..., None], *arg
     return capsys.readouterr().err
 
 
+def test_what_the_assembler_refuses_has_its_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    fault = {"good": "ORIGIN  EQU     0\n", "bad": "        NOP\n        LXI     H,FOO\n"}
+    assert says(refused(capsys, build.assemble, {"skg": fault}, tmp_path), "bad.asm:2", "FOO")
+
+
 @pytest.mark.parametrize(
     ("line", "fact"),
     [
@@ -423,25 +422,25 @@ def refused(capsys: pytest.CaptureFixture[str], check: Callable[..., None], *arg
     ],
 )
 def test_words_that_an_assembler_refuses(line: str, fact: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert says(refused(capsys, builder.check_words, {"some": f"{line}\n"}), fact)
+    assert says(refused(capsys, build.check_words, {"some": f"{line}\n"}), fact)
 
 
 def test_jumps_that_do_not_fit_and_listings_that_are_not_understood(capsys: pytest.CaptureFixture[str]) -> None:
     fit = "\n".join(f"{n:04X}   00  DB      THERE-$" for n in range(100))
-    builder.check_jumps(fit, {"THERE": 0x20})
-    assert says(refused(capsys, builder.check_jumps, fit, {"THERE": 0x80}), "0000", "THERE", "128 bytes")
-    assert says(refused(capsys, builder.check_jumps, fit.lower(), {"THERE": 0x20}), "0 jumps")
+    build.check_jumps(fit, {"THERE": 0x20})
+    assert says(refused(capsys, build.check_jumps, fit, {"THERE": 0x80}), "0000", "THERE", "128 bytes")
+    assert says(refused(capsys, build.check_jumps, fit.lower(), {"THERE": 0x20}), "0 jumps")
 
 
 def test_what_cannot_be_one_byte_with_qret(capsys: pytest.CaptureFixture[str]) -> None:
     """An assembler cuts off what does not fit; a jump there would be no jump."""
     fit = {"some": "        DB      CALC,LA0,QADD+QRET ; QEND+QRET\n" * 30}
     names = {"QRET": 0xD4, "QEND": 0, "QADD": 0x16, "QFAR": 0x2C, "QJN": 0x1A}
-    builder.check_returns(fit, names)
+    build.check_returns(fit, names)
     for wrong in ("QFAR", "QJN", "QEND"):
         other = {"other": f"        DB      {wrong}+QRET\n"}
-        assert says(refused(capsys, builder.check_returns, fit | other, names), "other.asm:1", f"{wrong}+QRET")
-    assert says(refused(capsys, builder.check_returns, {"some": "        DB      QADD,QRET\n"}, names), 0)
+        assert says(refused(capsys, build.check_returns, fit | other, names), "other.asm:1", f"{wrong}+QRET")
+    assert says(refused(capsys, build.check_returns, {"some": "        DB      QADD,QRET\n"}, names), 0)
 
 
 def test_z88dks_listing_is_read() -> None:
@@ -457,7 +456,7 @@ in.asm:
      1  000c  00                B1:NOP
 """
     image = bytes([0x21, 0x0C, 0x00, 1, 2, 3, 4, 5, 6, 7, 8, 9, 0])
-    assert builder.z88dk_listing(text, image).splitlines() == [
+    assert build.z88dk_listing(text, image).splitlines() == [
         "0000   21 0C 00 A1: LXI H,B1 ; a comment",
         "0003   01 02 03 04 05 06 07 08 09  DB 1,2,3,4,5,6,7,8,9",
         "000C   00 B1: NOP",

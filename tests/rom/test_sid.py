@@ -13,6 +13,9 @@ from test_build import labels
 
 from skg.board.emulator import Machine
 
+#: In one process with test_build.py, which assembles the image.
+pytestmark = pytest.mark.xdist_group("images")
+
 CLOCK, BAUD = 3_072_000, 2400
 BIT = CLOCK / BAUD
 RIM, SIM, CTRL_C = 0x20, 0x30, "\x03"
