@@ -97,9 +97,9 @@ ROM_BYTES = 0x2000
 
 
 def debugger(stop: str) -> dict[str, object]:
-    """The output of `skg80 --debug` at the wrench's second stop: floats, registers, the ROM's code."""
+    """The output of `skg80 --debug` at the wrench's second stop: floats, registers; at one of STOPS the ROM's code."""
     skg80, part = ROOT / "build" / "skg80", ROOT / "examples" / "wrench.skg"
-    listings = [f"list {address:X} 1" for address in range(ROM_BYTES)]
+    listings = [f"list {address:X} 1" for address in range(ROM_BYTES)] if stop == STOPS[0] else []
     commands = ["continue", "floats", "m", *listings]
     done = subprocess.run(
         [skg80, "--break", stop, part, "--punch", os.devnull],

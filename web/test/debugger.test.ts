@@ -40,6 +40,7 @@ async function stopped(stop: string): Promise<Board> {
 }
 
 test("all of the ROM, the float stack and the registers as skg80's debugger prints them", async () => {
+  let listed = 0;
   for (const { stop, floats, registers, listings } of SAID) {
     const { memory, pc, bc } = (await stopped(stop)).look();
     firmware.look(memory);
@@ -50,12 +51,13 @@ test("all of the ROM, the float stack and the registers as skg80's debugger prin
       registers.map((line) => line.trim().replace(/ +/g, " ")),
       stop,
     );
-    assert.equal(listings.length, 8192);
     for (const [from, text] of listings.entries()) {
       const lines = firmware.listing(from, 1).map(({ address, place, text }) => `${hex(address)} ${place.padEnd(10)} ${text}\n`);
       assert.equal(lines.join(""), text, hex(from));
+      listed++;
     }
   }
+  assert.equal(listed, 8192);
 });
 
 test("names, addresses and source files", async () => {
