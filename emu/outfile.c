@@ -158,15 +158,14 @@ bool outfile_punched(outfile *f, uint8_t byte)
     return (!ended && byte != CTRL_Z) || outfile_keep(f);
 }
 
-const char *outfile_leave(outfile *f)
+bool outfile_leave(outfile *f, const char **left)
 {
-    struct stat left;
-    if (f->file) {
-        fclose(f->file);
-        f->file = NULL;
-    }
-    if (!f->part || f->kept || stat(f->part, &left)) {
-        return NULL;
-    }
-    return left.st_size || unlink(f->part) ? f->part : NULL;
+    /* (a network's file system may say only now that its disk is full) */
+    int fault = f->file && fclose(f->file) ? errno : 0;
+    f->file = NULL;
+    struct stat part;
+    bool is_left = f->part && !f->kept && !stat(f->part, &part) && (part.st_size || unlink(f->part));
+    *left = is_left ? f->part : NULL;
+    errno = fault;
+    return !fault;
 }

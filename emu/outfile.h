@@ -34,7 +34,8 @@ bool outfile_again(outfile *f);
  * has come. False: as errno says. */
 bool outfile_punched(outfile *f, uint8_t byte);
 
-/* Ends it as it is: an empty part goes. The name of a part that is left, or NULL. */
-const char *outfile_leave(outfile *f);
+/* Ends it as it is: an empty part goes. `left` becomes the name of a part that is left, or NULL. False: not all that was
+ * written is in it, as errno says. */
+bool outfile_leave(outfile *f, const char **left);
 
 #endif

@@ -125,7 +125,10 @@ bool output_end(session *s)
         if (s->began && !s->failed && f != &s->tape && !outfile_keep(f)) {
             s->failed = errno;
         }
-        const char *part = outfile_leave(f);
+        const char *part;
+        if (!outfile_leave(f, &part) && !s->failed) {
+            s->failed = errno;
+        }
         if (part) {
             remark(
                 f == &s->tape ? "%s: what was punched so far, without the tape's end" : "%s: what was written so far",
