@@ -5,7 +5,7 @@ EMU_PROGRAM := i8080.c board.c drive.c drawn.c com.c complain.c image.c options.
                main.c output.c outfile.c operator.c symbols.c disasm.c calculator.c listing.c trace.c breaks.c debug.c commands.c
 EMU_LIBRARY := $(shell cat emu/library.txt)
 TRANSLATED  := $(shell cat emu/translated.txt)
-EMU_ASAN    := -g -O1 -fsanitize=address,undefined -fno-sanitize-recover=all
+EMU_ASAN    := -g1 -O1 -fsanitize=address,undefined -fno-sanitize-recover=all
 
 emu: build/skg80 build/libskg80.so
 
