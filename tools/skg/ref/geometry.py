@@ -301,8 +301,8 @@ def same_circle(c1: Circle, c2: Circle) -> bool:
 
 
 def sweep(c: Circle, start: Point, end: Point) -> Real:
-    """Angle in radians travelled on a circle by its sense, in (0, 2π]."""
-    u, v = outward(c, start), outward(c, end)
+    """Angle in radians travelled on a circle by its sense between two points of it, in (0, 2π]."""
+    u, v = start - c.centre, end - c.centre
     angle = real.mp.atan2(u.cross(v), u.dot(v))
     if c.r < 0:
         angle = -angle

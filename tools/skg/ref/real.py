@@ -5,6 +5,7 @@ The firmware's range is kept: a number of 2^127 or more is error 5, one below 2^
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import mpmath
@@ -112,6 +113,11 @@ def whole(value: Real) -> int:
 
 def literal(text: str) -> Real:
     """A decimal constant; error 5 when it is out of range."""
+    return _literal(str(text), mp.prec)
+
+
+@lru_cache(maxsize=10_000)
+def _literal(text: str, _precision: int) -> Real:
     mantissa, _, exponent = text.partition("E")
     units, _, fraction = mantissa.partition(".")
     units, fraction = units.lstrip("0"), fraction[:MOST_DIGITS]

@@ -10,6 +10,8 @@ from skg.ref.fault import Code, Fault
 from skg.ref.real import Real
 from skg.ref.values import Point
 
+#: What is added before a length is cut off to whole micrometres.
+ROUNDING = Real("0.502")
 #: One more than the largest number of 8 digits.
 TOO_LONG = 10**8
 
@@ -19,7 +21,7 @@ Grid = tuple[int, int]
 def micrometres(value: Real) -> int:
     """A length in mm rounded to the µm: ⌊1000·|v| + 0.502⌋ with the sign of v; error 10 for 100 m or more, 5 where
     1000·|v| is no number."""
-    scaled = real.in_range(1000 * abs(value)) + Real("0.502")
+    scaled = real.in_range(1000 * abs(value)) + ROUNDING
     size = int(real.mp.floor(scaled))
     near.note("rounding", scaled - real.mp.nint(scaled), 1e-3)
     if size >= TOO_LONG:
