@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator
+from itertools import pairwise
 from math import cos, sin
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,7 @@ import shapely
 from ezdxf.document import Drawing
 from facthelp import says
 from oneblock import run_block
-from shapely.geometry import Polygon
+from shapely.geometry import LineString, Polygon
 from toolhelp import Run
 
 from skg import tape as tapes
@@ -76,10 +77,16 @@ def stretches(data: bytes, start: XY) -> Iterator[list[XY]]:
 
 def apart(one: shapely.Geometry, other: shapely.Geometry) -> float:
     """Hausdorff distance, both ways, of two curves (mm)."""
-    return max(
-        one.segmentize(0.02).hausdorff_distance(other),
-        other.segmentize(0.02).hausdorff_distance(one),
-    )
+    return max(farthest(one, other), farthest(other, one))
+
+
+def farthest(one: shapely.Geometry, other: shapely.Geometry) -> float:
+    """Largest distance of a curve, looked at each 0.02 mm, from another (mm)."""
+    chords = [LineString(pair) for part in shapely.get_parts(other) for pair in pairwise(part.coords)]
+    points = shapely.points(shapely.get_coordinates(one.segmentize(0.02)))
+    _, distances = shapely.STRtree(chords).query_nearest(points, return_distance=True, all_matches=False)
+    assert len(distances) == len(points) > 0
+    return float(distances.max())
 
 
 def start_holes(report: str) -> list[tuple[str, str]]:

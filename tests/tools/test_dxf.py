@@ -20,6 +20,7 @@ import drawings
 import ezdxf
 import numpy as np
 import pytest
+import shapely
 from click.testing import Result
 from ezdxf.document import Drawing
 from facthelp import pattern, says
@@ -114,10 +115,9 @@ def off(points: Iterable[XY], edges: list[Edge]) -> np.ndarray:
     """Distance of each point from the nearest edge, µm."""
     found = np.full(len(points := np.array(list(points))), np.inf)
     chords = [(p, q) for edge in edges if edge.centre is None for p, q in pairwise(edge.points()) if p != q]
-    for p, q in np.array(chords).reshape(-1, 2, 2):
-        way, to = q - p, points - p
-        part = np.clip(to @ way / (way @ way), 0, 1)
-        found = np.minimum(found, np.hypot(*(to - part[:, None] * way).T))
+    if chords:
+        tree = shapely.STRtree(shapely.linestrings(chords))
+        _, found = tree.query_nearest(shapely.points(points), return_distance=True, all_matches=False)
     for edge in edges:
         if edge.centre is None:
             continue

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 import shapely
-from cuthelp import LIMIT, drawing, polygon, run_failing, saved, stretches
+from cuthelp import LIMIT, apart, drawing, polygon, run_failing, saved, stretches
 from ezdxf.document import Drawing
 from facthelp import says
 from hypothesis import given, settings
@@ -314,8 +314,7 @@ def test_offset_in_the_control(run: Run, tmp_path: Path, name: str, lead: str) -
     ours = shapely.union_all([shapely.LineString(places) for places in stretches(tape.read_bytes(), start_of(program))])
     assert len(theirs) == text.count("G41") + text.count("G42") >= 3
     both = shapely.union_all([*theirs, *free])
-    for one, other in ((both, ours), (ours, both)):
-        assert one.segmentize(0.05).hausdorff_distance(other) < LIMIT + 0.0005
+    assert apart(both, ours) < LIMIT + 0.0005
     read = run("gcode", "--back", part, "--machine", "wire-fanuc")
     assert says(read.stderr, Phrase("offsets-in-control"))
 

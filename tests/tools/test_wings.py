@@ -56,20 +56,23 @@ def modules() -> dict[str, ast.Module]:
     return {name_of(path): ast.parse(path.read_text()) for path in SOURCES}
 
 
-def imports(module: str) -> set[str]:
-    """The modules of the package that one imports, anywhere in its text."""
+@functools.cache
+def imported(module: str) -> set[str]:
+    """What a module imports, anywhere in its text."""
     found: set[str] = set()
     for node in ast.walk(modules()[module]):
         if isinstance(node, ast.Import):
-            names = [alias.name for alias in node.names]
+            found |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
             assert not node.level, f"{module}: a relative import"
             inner = [f"{node.module}.{alias.name}" for alias in node.names]
-            names = [name if name in modules() else node.module for name in inner]
-        else:
-            continue
-        found |= {name for name in names if name.split(".")[0] == "skg"}
+            found |= {name if name in modules() else node.module for name in inner}
     return found
+
+
+def imports(module: str) -> set[str]:
+    """The modules of the package that one imports."""
+    return {name for name in imported(module) if name.split(".")[0] == "skg"}
 
 
 @functools.cache
@@ -137,11 +140,8 @@ def test_modules_are_without_circles() -> None:
 
 def test_commands_alone_know_the_command_line() -> None:
     """Click is imported by commands alone, and nothing imports a command."""
-    for module, tree in modules().items():
-        roots = {
-            alias.name.split(".")[0] for node in ast.walk(tree) if isinstance(node, ast.Import) for alias in node.names
-        }
-        roots |= {node.module.split(".")[0] for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
+    for module in modules():
+        roots = {name.split(".")[0] for name in imported(module)}
         assert "click" not in roots or module == "skg.cli" or wing(module) == "commands", module
 
 

@@ -29,7 +29,6 @@ CAD_TAPE = (
 def timed(work: Callable[[], T]) -> tuple[T, float]:
     """The result of some work, and its time in processor seconds, without the garbage collector, which would go through
     the objects of earlier tests."""
-    gc.collect()
     gc.disable()
     try:
         began = process_time()
