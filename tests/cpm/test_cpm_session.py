@@ -53,7 +53,7 @@ def test_others_may_use_the_stack() -> None:
     assert depth < 28
     for n in (depth, depth + 1):
         assert cpm.said(nested(n)) == board.type(nested(n))
-    _, labels, _, _ = build.build("skg.com")
+    labels = build.build("skg.com")["skg.com"].symbols
     cpm.machine.interrupted_at(labels["OPFLT"], 200)
     assert cpm.said(f"{nested(depth)},3") == [f"{depth + 2} 3"]
     assert cpm.machine.interrupts > depth
