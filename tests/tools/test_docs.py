@@ -5,9 +5,11 @@ from __future__ import annotations
 import doctest
 import os
 import re
+import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import cache
 from pathlib import Path
 
 import drawings
@@ -59,17 +61,35 @@ def needed(command: str) -> str | None:
     return next((one["command"] for one in examples() if read & set(WRITTEN.findall(one["command"]))), None)
 
 
+def with_links(folder: Path) -> Path:
+    """A folder that has the project's docs and examples."""
+    for name in ("docs", "examples"):
+        (folder / name).symlink_to(ROOT / name)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
+    """The folder that a command of the page has written into, once for all that read what is there."""
+
+    @cache
+    def folder(command: str) -> Path:
+        folder = with_links(tmp_path_factory.mktemp("before"))
+        printed(command, folder)
+        return folder / "build"
+
+    return folder
+
+
 @pytest.mark.wording
 @pytest.mark.parametrize("example", examples(), ids=lambda match: match["command"])
-def test_example(example: re.Match[str], tmp_path: Path) -> None:
+def test_example(example: re.Match[str], tmp_path: Path, written: Callable[[str], Path]) -> None:
     """In a folder of its own, so that examples run in any order, and beside each other."""
-    for name in ("docs", "examples"):
-        (tmp_path / name).symlink_to(ROOT / name)
     # Pictures are drawn elsewhere, so that a test never changes the tree.
     command = re.sub(r"(-o|--sheet) docs/pictures/", rf"\1 {tmp_path}/", example["command"])
     if before := needed(command):
-        printed(before, tmp_path)
-    assert indented(printed(command, tmp_path)) == example["output"]
+        shutil.copytree(written(before), tmp_path / "build")
+    assert indented(printed(command, with_links(tmp_path))) == example["output"]
 
 
 def test_an_example_that_needs_another() -> None:

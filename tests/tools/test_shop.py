@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
-from test_docs import EXAMPLE, ROOT, indented, printed
+from test_docs import EXAMPLE, ROOT, indented, printed, with_links
 
 PAGE = ROOT / "docs" / "shop.md"
 #: Only a picture is written of these.
@@ -16,8 +16,7 @@ _PICTURE = re.compile(r"(-o|--sheet) docs/pictures/\S+")
 @pytest.mark.wording
 def test_page(tmp_path: Path) -> None:
     """All commands in their order, in one folder: later ones read what earlier ones wrote."""
-    for name in ("docs", "examples"):
-        (tmp_path / name).symlink_to(ROOT / name)
+    with_links(tmp_path)
     examples = list(EXAMPLE.finditer(PAGE.read_text()))
     assert len(examples) >= 12
     for example in examples:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from functools import cache
+from functools import cache, lru_cache
 
 from skg.ref import real
 
@@ -31,12 +31,17 @@ def _words(statements: tuple[str, ...]) -> re.Pattern[str]:
 DIGITS = 9
 
 
+@lru_cache(maxsize=10_000)
+def _number(text: str, _precision: int) -> str:
+    return real.show(real.literal(text), DIGITS)
+
+
 def listed(squeezed: str, remark: str | None, statements: tuple[str, ...] = STATEMENTS) -> str:
     """A program line, squeezed (`skg.ref.parser.squeeze`), as LIST writes it; `remark`: the text behind REM."""
     out = ""
     for word in _words(statements).finditer(squeezed):
         if word["number"]:
-            out += real.show(real.literal(word["number"]), DIGITS)
+            out += _number(word["number"], real.mp.prec)
         elif word["function"]:
             out += word["function"] + " "
         elif word["statement"]:
