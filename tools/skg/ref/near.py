@@ -61,7 +61,7 @@ def watching() -> Iterator[Watch]:
 def note(kind: str, margin: Real | float, limit: Real | float) -> None:
     """Record a decision whose distance to its tie is below `limit`."""
     watch = _watch.get()
-    if watch is not None and abs(margin) < limit:
+    if watch is not None and -limit < margin < limit:
         watch.calls.append(Near(kind, abs(float(margin)), watch.line))
 
 
