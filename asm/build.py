@@ -261,11 +261,11 @@ def check_returns(texts: dict[str, str], symbols: dict[str, int]) -> None:
         fail(f"only {count} operations with QRET in the sources: is their form another one?")
 
 
-def check_facts(texts: dict[str, str], symbols: dict[str, int]) -> None:
-    """Fail when a fact that the sources rely on does not hold."""
+def check_facts(name: str, texts: dict[str, str], symbols: dict[str, int]) -> None:
+    """Fail when a fact that the sources rely on does not hold in an image."""
     count, wrong = facts.check(texts, symbols)
     if wrong:
-        fail("\n  ".join(["facts", *wrong]))
+        fail("\n  ".join([f"facts of {name}", *wrong]))
     if count < LEAST_FACTS:
         fail(f"only {count} facts in the sources: is their form another one?")
 
@@ -290,16 +290,19 @@ def intel_hex(image: bytes, origin: int) -> str:
 
 
 def build(*names: str) -> dict[str, Built]:
-    """Images of IMAGES by name; ends the build when something is wrong with one."""
+    """Images of IMAGES by name, of which the bytes are printed; ends the build when something is wrong with one."""
     images = {name: sources(IMAGES[name]) for name in names}
     for texts in images.values():
         check_words(texts)
     with tempfile.TemporaryDirectory() as work:
         built = assemble(images, Path(work))
-    for _, symbols, listing, texts in built.values():
+    print_bytes(built)
+    # (first what is too long: there facts do not hold, either)
+    check_sizes(built)
+    for name, (_, symbols, listing, texts) in built.items():
         check_jumps(listing, symbols)
         check_returns(texts, symbols)
-        check_facts(texts, symbols)
+        check_facts(name, texts, symbols)
     return built
 
 
@@ -316,13 +319,24 @@ def account(name: str, size: int) -> str:
     return f"  {'used' if name == STANDARD else name:14} {size:5}{free}{kept}"
 
 
-def too_many(name: str, excess: int) -> str:
-    """Message about an image that the ROM has no room for: what to leave out."""
-    return (
-        f"{name} is {excess} bytes too long for {ROM_SIZE}. Shorten it, or leave something out of this image in\n"
-        "  asm/images.py: a statement of yours (`more` and `words`), or TOL (`spans`). See docs/firmware.md,\n"
-        '  section "Adding a statement".'
-    )
+def print_bytes(images: Mapping[str, Built]) -> None:
+    """What images take: the standard one file by file, a variant in one line."""
+    for name, built in images.items():
+        if name == STANDARD:
+            for file, size in bytes_of(built).items():
+                print(f"  {file + '.asm':14} {size:5}")
+        print(account(name, len(built.image)), flush=True)
+
+
+def check_sizes(images: Mapping[str, Built]) -> None:
+    """Fail when the ROM has no room for an image."""
+    sizes = {name: len(built.image) for name, built in images.items() if IMAGES[name].restarts}
+    if excess := [f"{name} by {size - ROM_SIZE}" for name, size in sizes.items() if size > ROM_SIZE]:
+        fail(
+            f"too long for {ROM_SIZE} bytes: {', '.join(excess)}. Shorten them, or leave something out in\n"
+            "  asm/images.py: a statement of yours (`more` and `words`), or TOL (`spans`). See docs/firmware.md,\n"
+            '  section "Adding a statement".'
+        )
 
 
 def write(path: Path, data: bytes) -> None:
@@ -362,13 +376,6 @@ def main() -> None:
     if not args.out:
         parser.error("the name of the image is missing: OUT")
     images = build(*IMAGES) if args.all else build(args.image)
-    for name, built in images.items():
-        if name == STANDARD:
-            for file, size in bytes_of(built).items():
-                print(f"  {file + '.asm':14} {size:5}")
-        print(account(name, len(built.image)))
-        if IMAGES[name].restarts and len(built.image) > ROM_SIZE:
-            fail(too_many(name, len(built.image) - ROM_SIZE))
     for name, built in images.items():
         write_image(name, built, args.out / name if args.all else args.out)
     if args.listing:

@@ -411,6 +411,13 @@ def test_what_the_assembler_refuses_has_its_line(tmp_path: Path, capsys: pytest.
     assert says(refused(capsys, build.assemble, {"skg": fault}, tmp_path), "bad.asm:2", "FOO")
 
 
+def test_every_image_that_is_too_long_is_named(capsys: pytest.CaptureFixture[str]) -> None:
+    longer = {name: built(name)._replace(image=bytes(8193)) for name in ("skg-mill", "skg.com", "skg-drive")}
+    assert says(refused(capsys, build.check_sizes, longer), "skg-mill by 1", "skg-drive by 1")
+    build.check_sizes({"skg.com": longer["skg.com"]})
+    assert says(refused(capsys, build.check_facts, "skg-tty", {"some": ";! 1 == 2 -- nobody\n"}, {}), "skg-tty")
+
+
 @pytest.mark.parametrize(
     ("line", "fact"),
     [
