@@ -590,7 +590,7 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await drawn(page);
     await page.fill("#field-wire", "thick");
     await page.press("#field-wire", "Enter");
-    await message(page, /a number is wanted/);
+    await message(page, /enter a number/);
     await page.click("#dismiss");
     await type(page, "field-wire", "0.5");
     await page.click("#cut");
