@@ -113,6 +113,8 @@ def test_a_statement(asm: Path) -> None:
     (top / "tests").mkdir()
     shutil.copy(ROOT / "tests" / "rom" / "romhelp.py", top / "tests")
     (top / "tests" / "test_rot.py").write_text(test)
+    style = ("ruff", "check", "-q", "--config", str(ROOT / "tools" / "pyproject.toml"))
+    tool(top, "-m", *style, "tools/skg/ref/rot.py", "tests/test_rot.py")
     shutil.copytree(ROOT / "roms", top / "roms")
     (top / "roms" / "skg-rot.bin").write_bytes(rom)
     places = {"PYTHONPATH": str(top / "tools"), "SKG_ROM": str(top / "roms" / "skg.bin")}
