@@ -108,14 +108,20 @@ def test_what_runs_is_followed_from_its_start() -> None:
     assert followed > SESSIONS and broken > SESSIONS / 4 and behind > SESSIONS / 4, (followed, broken, behind)
 
 
-def test_a_stop_while_a_d_waits_for_the_rest_of_a_block() -> None:
-    """The D of the run that was broken off counts no more: the next run moves with bit 7 off, and cuts with it on."""
+def stopped_in_a_run(program: str) -> Driver:
+    """A board that was stopped while it carried out a program."""
     board = Driver()
-    board.load("10 FROM O\n20 CUT O,(30,0),(30,1)\n30 FROM (3,3)\n40 CUT (3,3),(4,3)\n50 END\n")
+    board.load(program)
     board.go("DRIVE 1")
     board.machine.type("RUN\r")
     board.machine.run(3_000_000)
     board.stop()
+    return board
+
+
+def test_a_stop_while_a_d_waits_for_the_rest_of_a_block() -> None:
+    """The D of the run that was broken off counts no more: the next run moves with bit 7 off, and cuts with it on."""
+    board = stopped_in_a_run("10 FROM O\n20 CUT O,(30,0),(30,1)\n30 FROM (3,3)\n40 CUT (3,3),(4,3)\n50 END\n")
     assert 0 < len(board.steps) < 30000
     board.machine.type("GOTO 30\r")
     board.machine.run(1_500_000)
@@ -128,12 +134,7 @@ def test_a_stop_while_a_d_waits_for_the_rest_of_a_block() -> None:
 
 def test_stopped_again_in_the_rest_of_a_block() -> None:
     """GOTO behind a stop: nothing of its line is done before the rest of that block, however often it is stopped."""
-    board = Driver()
-    board.load("10 FROM O\n20 CUT O,(30,0),(30,1)\n30 FROM (3,3)\n40 CUT (3,3),(4,3),(4,6)\n50 BACK\n")
-    board.go("DRIVE 1")
-    board.machine.type("RUN\r")
-    board.machine.run(3_000_000)
-    board.stop()
+    board = stopped_in_a_run("10 FROM O\n20 CUT O,(30,0),(30,1)\n30 FROM (3,3)\n40 CUT (3,3),(4,3),(4,6)\n50 BACK\n")
     for _ in range(3):
         begun, before = len(board.steps), len(board.tape)
         board.machine.type("GOTO 40\r")

@@ -21,8 +21,12 @@ from toolhelp import Run
 
 from skg import tape as tapes
 from skg.errors import UserError
+from skg.geometry.contour import Contour, Edge
 from skg.geometry.plane import XY
+from skg.job.job import Chosen
+from skg.job.wanted import Overrides
 from skg.messages.finding import Phrase
+from skg.pipeline.steps import DrawnJob
 from skg.tape.block import Block
 
 #: A tape may be this far from the drawing, mm; arcs are handed to shapely as chords this near.
@@ -38,6 +42,16 @@ def drawing() -> Drawing:
 def polygon(corners: list[XY], page: Drawing, **attributes: object) -> Polygon:
     page.modelspace().add_lwpolyline(corners, close=True, dxfattribs=attributes)
     return Polygon(corners)
+
+
+def closed(corners: list[XY], *layers: str) -> Contour:
+    """A closed contour of lines."""
+    return Contour(tuple(map(Edge, corners, corners[1:] + corners[:1])), True, layers)
+
+
+def choose(drawn: DrawnJob, number: int, **settings: object) -> Chosen:
+    """Settings for a contour of a drawing, by its number."""
+    return drawn.known.choose(number, Overrides(**settings))
 
 
 def saved(page: Drawing, folder: Path) -> Path:

@@ -10,7 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from cuthelp import drawing, polygon, run_failing, saved, start_holes
+from cuthelp import choose, drawing, polygon, run_failing, saved, start_holes
 from facthelp import CARE, pattern, says
 from hypothesis import given
 from hypothesis import strategies as st
@@ -25,7 +25,7 @@ from skg.job.machine import INTO, ROMS, SMALL, BoardOptions, Policy, Setup
 from skg.job.read_options import OPEN, UNITS, ReadOptions
 from skg.job.wanted import CLEARANCE_ON, LEAD_SHAPES, SIDES, CutSettings, Overrides
 from skg.messages.finding import Phrase
-from skg.pipeline.steps import choose, cut_drawing, open_drawing, plan_drawing, wanted_of, written
+from skg.pipeline.steps import cut_drawing, open_drawing, plan_drawing, wanted_of, written
 from skg.tape.styles import STYLES
 
 DOCS = ROOT / "docs"

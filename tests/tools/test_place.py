@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 import shapely
-from cuthelp import drawing, polygon, saved, stretches
+from cuthelp import choose, drawing, polygon, saved, stretches
 from ezdxf import transform
 from ezdxf.document import Drawing
 from ezdxf.math import Matrix44
@@ -23,7 +23,7 @@ from skg.job.job import Job
 from skg.job.machine import Setup
 from skg.job.placing import Place
 from skg.messages.finding import Phrase
-from skg.pipeline.steps import choose, cut_drawing, open_drawing, plan_drawing, written
+from skg.pipeline.steps import cut_drawing, open_drawing, plan_drawing, written
 
 
 def part() -> Drawing:

@@ -14,12 +14,8 @@ from skg.geometry.contour import Contour, CurveNode, Edge
 from skg.geometry.plane import XY
 from skg.job.placing import Copies, Place
 
-_ONE = Copies()
 
-
-def as_drawn(
-    contours: list[Contour], place: Place, origin: XY, copies: Copies = _ONE, number: int = 0
-) -> list[Contour]:
+def as_drawn(contours: list[Contour], place: Place, origin: XY, copies: Copies, number: int) -> list[Contour]:
     """The contours of a copy, by its number, in the file's place and size. `origin`: the place of the drawing that is
     0, 0 on the machine, mm."""
     if place == Place() and not number:

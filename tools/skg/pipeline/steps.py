@@ -30,7 +30,7 @@ from skg.job.matching import Known, Matches
 from skg.job.placing import Copies, Place
 from skg.job.read_options import ReadOptions
 from skg.job.values import LEAST_FIT
-from skg.job.wanted import CutSettings, Overrides
+from skg.job.wanted import CutSettings
 from skg.messages.finding import Finding, Phrase
 from skg.pipeline import pairing, placing
 from skg.planning.copies import Pattern, refuse_near
@@ -71,6 +71,11 @@ class DrawnJob:
         """The source of messages on it: its name, and its move near, as the places in them are moved."""
         by = self.reading.noted.by
         return (self.name,) if by == (0.0, 0.0) else (self.name, Phrase("moved-by", by=by))
+
+    @property
+    def whole(self) -> DrawnJob:
+        """The drawing as the part, of which it may be a member."""
+        return replace(self, member="") if self.member else self
 
     @cached_property
     def sha256(self) -> str:
@@ -232,7 +237,7 @@ def starts_of(job: Job, drawn: DrawnJob) -> list[XY]:
     starts = [shifted(start, drawn.matches.shift) for start in job.starts] or drawn.reading.starts
     if not drawn.member:
         return starts
-    return pairing.pair_starts(starts, wanted_of(job, replace(drawn, member="")), drawn.nesting, drawn.member)
+    return pairing.pair_starts(starts, wanted_of(job, drawn.whole), drawn.nesting, drawn.member)
 
 
 def refuse_lost(job: Job, drawn: DrawnJob) -> None:
@@ -266,7 +271,7 @@ def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> C
         result = make(contours, job.drawing, job.setup, job.board, job.policy, progress, pattern)
     skipped = {number: UNWANTED for number, want in enumerate(wanted_of(job, drawn)) if not want.cut}
     if drawn.member:
-        others = enumerate(wanted_of(job, replace(drawn, member="")))
+        others = enumerate(wanted_of(job, drawn.whole))
         skipped |= {number: pairing.OTHER for number, want in others if want.cut and number in skipped}
     skipped |= {contour.number: _reason(contour) for contour in result.skipped}
     account = drawn.reading.account(skipped) if skipped else drawn.reading.report
@@ -289,27 +294,23 @@ def _beside_file(result: CutResult, job: Job, drawn: DrawnJob, account: Account,
     scale = job.place.scale
     named = [Named(mend.place, mend.size) for mend in account.mends]
     copies = drawn.copies(job)
-    # (those of the first copy are where the drawing has them)
     count = len(result.contours) // copies.count
+    # (those of the first copy are where the drawing has them)
     for planned in result.contours[:count]:
         trims = (*planned.remarks.loops, *planned.remarks.whiskers)
         named += [Named(placement.back.place(trim.place), trim.length / scale) for trim in trims]
-    wanted = wanted_of(job, replace(drawn, member="")) if drawn.sized else []
-    sizes = {number: pairing.growth(wanted[number], drawn.member) for number in drawn.sized}
+    wanted = wanted_of(job, drawn.whole) if drawn.sized else []
     worst = 0.0
     for number in range(copies.count):
-        contours = [planned.contour for planned in result.contours[number * count : (number + 1) * count]]
-        contours = as_drawn(contours, job.place, placement.origin, copies, number)
-        numbers = [planned.number for planned in result.contours[number * count : (number + 1) * count]]
-        offs = [
-            off_size(contour, drawn.contours[own], sizes[own])
-            for contour, own in zip(contours, numbers, strict=True)
-            if own in sizes
-        ]
-        contours = [
-            drawn.contours[own] if own in sizes else contour for contour, own in zip(contours, numbers, strict=True)
-        ]
-        offs.append(off_drawn(contours, drawn.reading.nominal, account.whole, named))
+        copy = result.contours[number * count : (number + 1) * count]
+        offs, nominal = [], []
+        contours = as_drawn([planned.contour for planned in copy], job.place, placement.origin, copies, number)
+        for own, contour in zip((planned.number for planned in copy), contours, strict=True):
+            if own in drawn.sized:
+                growth = pairing.growth(wanted[own], drawn.member)
+                offs.append(off_size(contour, drawn.contours[own], growth))
+            nominal.append(drawn.contours[own] if own in drawn.sized else contour)
+        offs.append(off_drawn(nominal, drawn.reading.nominal, account.whole, named))
         off, place = max(offs)
         if off > NEAR:
             raise UserError(Finding("off-the-file", place=place, off=1000 * off).within(*drawn.source))
@@ -346,8 +347,7 @@ def _findings(
         report += [placing.as_drawn(finding, placement) for finding in split_parts.findings(result.contours)]
     if not drawn.member:
         return report
-    whole = replace(drawn, member="")
-    return pairing.pair_findings(wanted_of(job, whole), drawn.nesting, drawn.member, report)
+    return pairing.pair_findings(wanted_of(job, drawn.whole), drawn.nesting, drawn.member, report)
 
 
 def _matched(job: Job, drawn: DrawnJob) -> list[Finding]:
@@ -388,8 +388,3 @@ def written(job: Job, drawn: DrawnJob) -> Job:
         starts=starts,
         contours=contours,
     )
-
-
-def choose(drawn: DrawnJob, number: int, **wanted: Any) -> Chosen:  # noqa: ANN401
-    """Settings for a contour, by its number."""
-    return drawn.known.choose(number, Overrides(**wanted))
