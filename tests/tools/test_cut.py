@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 import shapely
 from click.testing import Result
-from cuthelp import LIMIT, apart, drawing, polygon, run_failing, saved, start_holes, stretches, values_of
+from cuthelp import LIMIT, apart, closed, drawing, polygon, run_failing, saved, start_holes, stretches, values_of
 from ezdxf.document import Drawing
 from facthelp import CARE, each_says, pattern, says
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -30,7 +30,8 @@ from skg.board import feeding
 from skg.board.feeding import feed, feed_routes, rest_of, without_numbers
 from skg.errors import UserError
 from skg.geometry.plane import XY
-from skg.job.machine import BoardOptions, Policy, Setup
+from skg.job.job import Job
+from skg.job.machine import Setup
 from skg.job.wanted import CutSettings
 from skg.messages.finding import Phrase
 
@@ -287,22 +288,22 @@ def test_wrong_tapes_are_found() -> None:
     from skg.planning.plan import plan
 
     corners = [(0.0, 0.0), (20.0, 0.0), (20.0, 10.0), (8.0, 14.0)]
-    edges = tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True))
+    outline = closed(corners)
     round_hole = Contour((Edge((13.0, 5.0), (13.0, 5.0), (10.0, 5.0), 2 * pi),), True)
-    contours = plan([Contour(edges, True), round_hole], [], CutSettings(offset=0.1))
-    job = make(contours, "part")
-    assert not job.checked.faults and job.checked.off < LIMIT
-    wider = plan([Contour(edges, True), round_hole], [], CutSettings(offset=0.105))
-    assert {fault.contour for fault in check(job.tape, wider, True).faults} == {0, 1}
+    contours = plan([outline, round_hole], [], CutSettings(offset=0.1))
+    result = make(contours, Job("part"))
+    assert not result.checked.faults and result.checked.off < LIMIT
+    wider = plan([outline, round_hole], [], CutSettings(offset=0.105))
+    assert {fault.contour for fault in check(result.tape, wider, True).faults} == {0, 1}
     # The slanted edge goes 9 µm too far up, the one after it comes back.
-    slanted = re.search(rb"B(\d+)B(\d+)B\1GXL2", job.data)
-    bent = job.data.replace(slanted[0], b"B%bB%dB%bGXL2" % (slanted[1], int(slanted[2]) + 9, slanted[1]))
+    slanted = re.search(rb"B(\d+)B(\d+)B\1GXL2", result.data)
+    bent = result.data.replace(slanted[0], b"B%bB%dB%bGXL2" % (slanted[1], int(slanted[2]) + 9, slanted[1]))
     faults = check(tapes.parse(bent, "bent"), contours, True).faults
     assert faults and faults[0].contour == 1
     with pytest.raises(UserError, match=pattern(Phrase("wrong-stops"))):
-        check(tapes.parse(job.data.replace(b"D\r\n", b"", 2), "one"), contours, True)
+        check(tapes.parse(result.data.replace(b"D\r\n", b"", 2), "one"), contours, True)
     # It goes 1 um too far up: nowhere off by much, but the wire does not come back to its start hole.
-    open_one = job.data.replace(slanted[0], b"B%bB%dB%bGXL2" % (slanted[1], int(slanted[2]) + 1, slanted[1]))
+    open_one = result.data.replace(slanted[0], b"B%bB%dB%bGXL2" % (slanted[1], int(slanted[2]) + 1, slanted[1]))
     checked = check(tapes.parse(open_one, "open"), contours, True)
     assert not checked.faults
     with pytest.raises(
@@ -311,7 +312,7 @@ def test_wrong_tapes_are_found() -> None:
             Phrase("not-closed", dx=0, dy=1), Phrase("contour-name", turn=2), Phrase("kind-outline", count=1)
         ),
     ):
-        refuse(checked, contours, BoardOptions(), Policy())
+        refuse(checked, contours, Job("part"))
 
 
 def test_what_adds_up_on_a_standard_tape_is_said(run: Run, tmp_path: Path) -> None:
@@ -337,14 +338,13 @@ def test_the_controllers_steps_count() -> None:
     """The controller's own path is compared with 3 µm and reported: on a slant it steps aside."""
     from skg.checking.check import check
     from skg.cutting.ladder import make
-    from skg.geometry.contour import Contour, Edge
     from skg.planning.plan import plan
 
     for height, is_far in ((0.0, False), (3.7, True)):
         corners = [(0.0, 0.0), (20.0, height), (20.0, 10.0), (0.0, 10.0)]
-        contour = Contour(tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)), True)
-        job = make(plan([contour], [(5.0, -3.0)], CutSettings(offset=0.1)), "part")
-        found = check(job.tape, plan([contour], [(5.0, -3.0)], CutSettings(offset=0.102)), True)
+        contour = closed(corners)
+        result = make(plan([contour], [(5.0, -3.0)], CutSettings(offset=0.1)), Job("part"))
+        found = check(result.tape, plan([contour], [(5.0, -3.0)], CutSettings(offset=0.102)), True)
         assert bool(found.faults) == is_far and (found.off > LIMIT) == is_far
         if is_far:
             assert LIMIT < found.faults[0].off < 0.0036
@@ -368,17 +368,16 @@ def test_each_pass_keeps_its_own_distance(corner: bytes, cut_short: bytes) -> No
     """A pass that goes around a corner where the last one should is found, though no part is spoiled by it."""
     from skg.checking.check import check
     from skg.cutting.ladder import make
-    from skg.geometry.contour import Contour, Edge
     from skg.planning.plan import plan
 
     corners = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)]
-    square = Contour(tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)), True)
+    square = closed(corners)
     contours = plan([square], [(5.0, -3.0)], CutSettings(offset=0.1, passes=(0.5, 0.3, 0.0)))
-    job = make(contours, "part")
-    assert not job.checked.faults and len(job.checked.cuts) == 2
+    result = make(contours, Job("part"))
+    assert not result.checked.faults and len(result.checked.cuts) == 2
     corner, cut_short = (blocks.replace(b" ", b"\r\n") for blocks in (corner, cut_short))
-    assert job.data.count(corner) == 1
-    faults = check(tapes.parse(job.data.replace(corner, cut_short), "short"), contours, True).faults
+    assert result.data.count(corner) == 1
+    faults = check(tapes.parse(result.data.replace(corner, cut_short), "short"), contours, True).faults
     assert [(fault.is_into, fault.off > 0.1) for fault in faults] == [(False, True)], faults
 
 
@@ -391,10 +390,10 @@ def test_a_circle_too_many_is_found() -> None:
 
     half = Contour((Edge((-5.0, 0.0), (5.0, 0.0)), Edge((5.0, 0.0), (-5.0, 0.0), (0.0, 0.0), pi)), True)
     contours = plan([half], [], CutSettings(offset=0.1))
-    job = make(contours, "part")
-    assert not job.checked.faults
-    (arc,) = re.findall(rb"B\d+B\d+B\d+G[XY]NR4\r\n", job.data)
-    around = job.data.replace(arc, b"B5099B100B20400GYNR4\r\n" + arc)
+    result = make(contours, Job("part"))
+    assert not result.checked.faults
+    (arc,) = re.findall(rb"B\d+B\d+B\d+G[XY]NR4\r\n", result.data)
+    around = result.data.replace(arc, b"B5099B100B20400GYNR4\r\n" + arc)
     assert check(tapes.parse(around, "around"), contours, True).faults
 
 
@@ -799,7 +798,7 @@ def test_a_small_round_opening_that_another_crosses(turn: float, offset: float) 
     contours = plan([circle(0, 0, 10), circle(0, 0, 0.5), circle(0.5, 0, 0.2)], [], CutSettings(offset=offset))
     (opening,) = (planned for planned in contours if planned.number == 1)
     assert opening.start != (0.0, 0.0)
-    assert not make(contours, "part").checked.faults
+    assert not make(contours, Job("part")).checked.faults
 
 
 def test_any_size_in_8_kib(run: Run, tmp_path: Path) -> None:
@@ -935,16 +934,15 @@ def test_contours_with_passes_of_their_own(one: tuple[float, ...], other: tuple[
     """Two squares, each with its own number of passes: all of these are checked, and none that is not there."""
     from skg.checking.check import check
     from skg.cutting.ladder import make
-    from skg.geometry.contour import Contour, Edge
+    from skg.geometry.contour import Contour
     from skg.planning.plan import plan
 
     def square(x: float, side: float) -> Contour:
-        corners = [(x, 0.0), (x + side, 0.0), (x + side, side), (x, side)]
-        return Contour(tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)), True)
+        return closed([(x, 0.0), (x + side, 0.0), (x + side, side), (x, side)])
 
     wanted = [CutSettings(offset=0.1, passes=one, tab=tab), CutSettings(offset=0.1, passes=other)]
     contours = plan([square(0, 20), square(40, 10)], [], wanted)
-    made = make(contours, "squares")
+    made = make(contours, Job("squares"))
     assert not made.checked.faults and made.checked.off < LIMIT
     for at in (0, 1):
         # (a stop fewer or more would be found before: here a pass is wanted elsewhere)
@@ -964,15 +962,12 @@ def test_the_middles_of_straight_pieces_hide_nothing(monkeypatch: pytest.MonkeyP
     from skg.geometry.pieces import Pieces
     from skg.planning.plan import plan
 
-    def closed(*corners: tuple[float, float]) -> Contour:
-        return Contour(tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)), True)
-
     def hole(x: float, y: float) -> Contour:
         return Contour((Edge((x + 0.5, y), (x + 0.5, y), (x, y), 2 * pi),), True)
 
-    outline = closed((0.0, 0.0), (40.0, 0.0), (40.0, 10.0), (20.0, 10.4), (0.0, 10.0))
+    outline = closed([(0.0, 0.0), (40.0, 0.0), (40.0, 10.0), (20.0, 10.4), (0.0, 10.0)])
     contours = plan([outline, hole(20.0, 5.0)], [], CutSettings(offset=0.1))
-    made = make(contours, "part")
+    made = make(contours, Job("part"))
     bottom = re.search(rb"B(\d+)B0+B\1GXL1", made.data) or re.search(rb"B(\d+)B0+B\1GXL3", made.data)
     long = int(bottom[1])
     digit = bottom[0][-1:]
@@ -986,7 +981,7 @@ def test_the_middles_of_straight_pieces_hide_nothing(monkeypatch: pytest.MonkeyP
     tapes_of = [made.data, *(made.data.replace(bottom[0], other) for other in (bump, over))]
     near = plan([outline, hole(20.0, 0.55)], [], CutSettings(offset=0.1))
     tilted = plan(
-        [closed((0.0, 0.0), (40.0, 0.004), (40.0, 10.0), (20.0, 10.4), (0.0, 10.0)), hole(20.0, 5.0)],
+        [closed([(0.0, 0.0), (40.0, 0.004), (40.0, 10.0), (20.0, 10.4), (0.0, 10.0)]), hole(20.0, 5.0)],
         [],
         CutSettings(offset=0.1),
     )
@@ -1096,18 +1091,16 @@ def test_sheet(tmp_path: Path, size: float, columns: int, kinds: list[str]) -> N
     from skg.planning.plan import plan
 
     corners = [(0.0, 0.0), (size, 0.0), (size, size), (0.0, size)]
-    contours = [
-        Contour(
-            tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)),
-            True,
-        )
-    ] * (len(kinds) - 1)
+    contours = [closed(corners)] * (len(kinds) - 1)
     for at in range(columns**2):
         x, y = (size * (0.5 + k) / columns for k in divmod(at, columns))
         radius = size / columns / 4
         contours.append(Contour((Edge((x + radius, y), (x + radius, y), (x, y), 2 * pi),), True))
-    job = make(plan(contours, [], CutSettings(offset=size / 1e4, lead=size / 20)), "part", Setup(wire=0.18, gap=0.01))
-    sheet = SetupSheet(job, Facts("part.dxf", "part.3b", "mm"))
+    result = make(
+        plan(contours, [], CutSettings(offset=size / 1e4, lead=size / 20)),
+        Job("part", setup=Setup(wire=0.18, gap=0.01)),
+    )
+    sheet = SetupSheet(result, Facts("part.dxf", "part.3b", "mm"))
     sheet.draw()
     sheet.save(str(tmp_path / "sheet.svg"), "svg")
     renderer = FigureCanvasAgg(sheet.figure).get_renderer()
@@ -1127,7 +1120,7 @@ def test_sheet(tmp_path: Path, size: float, columns: int, kinds: list[str]) -> N
     marks = [Point(patch.center).buffer(patch.radius) for patch in sheet.axes.patches if patch.get_gid() == "hole"]
     for many in (one for one in sheet.axes.collections if one.get_gid() == "holes"):
         marks += [shapely.Polygon(path.to_polygons()[0]) for path in many.get_paths()]
-    part = [LineString([sheet.on_paper(point) for point in one.contour.points()]) for one in job.contours]
+    part = [LineString([sheet.on_paper(point) for point in one.contour.points()]) for one in result.contours]
     assert len(marks) == len(part) == len(contours)
     for here in (boxes, marks):
         tree = shapely.STRtree(here)
@@ -1142,7 +1135,7 @@ def test_sheet(tmp_path: Path, size: float, columns: int, kinds: list[str]) -> N
     for word in (
         "part.dxf",
         "part.3b",
-        f"{job.cut_length:.1f} mm",
+        f"{result.cut_length:.1f} mm",
         "0.18 mm, gap 0.01 mm",
         *kinds,
     ):
@@ -1153,16 +1146,15 @@ def test_sheet(tmp_path: Path, size: float, columns: int, kinds: list[str]) -> N
 def test_a_part_fills_its_sheet(size: tuple[float, float]) -> None:
     """Whatever its form, it takes more than half of the page's free width or height; the stock stands on the page."""
     from skg.cutting.ladder import make
-    from skg.geometry.contour import Contour, Edge
     from skg.pictures.sheet import Facts, SetupSheet
     from skg.planning.plan import plan
 
     width, height = size
     corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)]
-    contour = Contour(tuple(map(Edge, corners, corners[1:] + corners[:1])), True)
+    contour = closed(corners)
     stock = Setup(offset=0.1, material="1.2379", thickness=20.0)
-    job = make(plan([contour], [], CutSettings(offset=0.1, lead=0.5)), "part", stock)
-    sheet = SetupSheet(job, Facts("part.dxf", "part.3b", "mm"))
+    result = make(plan([contour], [], CutSettings(offset=0.1, lead=0.5)), Job("part", setup=stock))
+    sheet = SetupSheet(result, Facts("part.dxf", "part.3b", "mm"))
     sheet.draw()
     texts = {text.get_text() for text in sheet.axes.texts}
     assert {"1.2379", "20 mm"} <= texts and any(
@@ -1186,13 +1178,13 @@ def test_each_number_belongs_to_one_hole(width: float) -> None:
     contours = [Contour((Edge((x + 0.2, y), (x + 0.2, y), (x, y), 2 * pi),), True) for x, y in places]
     rest = [(0.0, 4.0), (width, 4.0), (width, 9.0), (0.0, 9.0)]
     contours.append(Contour(tuple(Edge(p, q) for p, q in zip(rest, rest[1:] + rest[:1], strict=True)), True))
-    job = make(plan(contours, [], CutSettings(offset=0.1, side="inside")), "part")
+    result = make(plan(contours, [], CutSettings(offset=0.1, side="inside")), Job("part"))
     long = "a" * 40 + "b" * 40 + ".3b"
-    sheet = SetupSheet(job, Facts("part.dxf", long, "mm"))
+    sheet = SetupSheet(result, Facts("part.dxf", long, "mm"))
     sheet.draw()
     renderer = FigureCanvasAgg(sheet.figure).get_renderer()
     to_page = sheet.axes.transData.inverted()
-    holes = [Point(sheet.on_paper(planned.start)) for planned in job.contours]
+    holes = [Point(sheet.on_paper(planned.start)) for planned in result.contours]
     lines = [one.get_path().vertices for one in sheet.axes.get_children() if one.get_gid() == "number-line"]
     assert lines or width < 100
     tied = {min(range(len(holes)), key=lambda at: holes[at].distance(Point(line[0]))) for line in lines}

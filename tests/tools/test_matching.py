@@ -6,12 +6,11 @@ from pathlib import Path
 from random import Random
 
 import pytest
-from cuthelp import drawing, polygon, saved
+from cuthelp import closed, drawing, polygon, saved
 from matchhelp import EDITS, Count, counted, drawn_in, known
 from toolhelp import ROOT
 
-from skg.geometry.contour import Contour, Edge
-from skg.geometry.plane import XY
+from skg.geometry.contour import Contour
 from skg.job.job import Chosen
 from skg.job.matching import Match
 from skg.job.wanted import Overrides
@@ -27,10 +26,6 @@ NAMES = (
     "punch.svg",
     "fit-gear.svg",
 )
-
-
-def closed(corners: list[XY], layer: str = "0") -> Contour:
-    return Contour(tuple(map(Edge, corners, corners[1:] + corners[:1])), True, (layer,))
 
 
 def box(x: float, y: float, width: float, height: float, layer: str = "0") -> Contour:

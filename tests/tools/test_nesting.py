@@ -8,14 +8,13 @@ from pathlib import Path
 
 import pytest
 import shapely
-from cuthelp import drawing, polygon, saved, stretches
+from cuthelp import closed, drawing, polygon, saved, stretches
 from ezdxf.document import Drawing
 from facthelp import CARE, pattern, says
 from shapely.geometry import Point
 from test_cut import start_of
 from toolhelp import Run
 
-from skg.geometry.contour import Contour, Edge
 from skg.messages.finding import Phrase
 from skg.planning.islands import islands
 from skg.planning.planned import PlannedContour
@@ -212,8 +211,7 @@ def test_what_goes_with_an_opening_that_is_left_out() -> None:
 
     def rectangle(left: float, low: float, right: float, high: float, depth: int) -> PlannedContour:
         corners = [(left, low), (right, low), (right, high), (left, high)]
-        edges = map(Edge, corners, corners[1:] + corners[:1])
-        return PlannedContour(Contour(tuple(edges), True), corners[0], 0.5, (0.1,), depth)
+        return PlannedContour(closed(corners), corners[0], 0.5, (0.1,), depth)
 
     elsewhere, part = rectangle(100, 0, 110, 10, 1), rectangle(-50, -50, 60, 60, 2)
     opening, inner, crossing = rectangle(0, 0, 10, 10, 3), rectangle(1, 1, 2, 2, 4), rectangle(2, 4, 12, 8, 3)

@@ -6,11 +6,13 @@ from dataclasses import replace
 from math import dist
 
 import pytest
+from cuthelp import closed
 from facthelp import pattern
 
 from skg.cutting.ladder import make
 from skg.errors import UserError
-from skg.geometry.contour import Contour, Edge
+from skg.geometry.contour import Contour
+from skg.job.job import Job
 from skg.job.wanted import CutSettings
 from skg.messages.finding import Phrase
 from skg.planning.plan import plan
@@ -20,8 +22,7 @@ OFFSET = CutSettings(offset=0.1)
 
 def box(left: float, low: float, width: float, height: float) -> Contour:
     """A rectangle."""
-    corners = [(left, low), (left + width, low), (left + width, low + height), (left, low + height)]
-    return Contour(tuple(map(Edge, corners, corners[1:] + corners[:1])), True)
+    return closed([(left, low), (left + width, low), (left + width, low + height), (left, low + height)])
 
 
 def plate() -> list[Contour]:
@@ -31,7 +32,7 @@ def plate() -> list[Contour]:
 
 def cut(contours: list[Contour], wanted: list[CutSettings]) -> list[int]:
     """The numbers of the contours in the order in which a checked tape cuts them."""
-    return [planned.number for planned in make(plan(contours, [], wanted), "plate").contours]
+    return [planned.number for planned in make(plan(contours, [], wanted), Job("plate")).contours]
 
 
 def test_what_is_left_stays_in_the_nesting() -> None:
@@ -64,7 +65,7 @@ def test_entry_and_start_hole(place: tuple[float, float]) -> None:
     hole = (45.0, 24.0) if place[1] > 10 else (-5.0, -4.0)  # (on the side of the entry)
     (given,) = plan([plate()[0]], [], replace(wanted, start=hole))
     assert given.start == hole and dist(given.entry, place) < 0.5
-    assert len(make([chosen], "plate").tape.blocks) >= 6
+    assert len(make([chosen], Job("plate")).tape.blocks) >= 6
 
 
 def test_order() -> None:

@@ -10,7 +10,7 @@ from math import atan, atan2, cos, dist, pi, radians, sin, sqrt, tan
 from pathlib import Path
 
 import pytest
-from cuthelp import LIMIT, apart, drawing, polygon, run_failing, saved, stretches, values_of
+from cuthelp import LIMIT, apart, closed, drawing, polygon, run_failing, saved, stretches, values_of
 from ezdxf.layouts import Modelspace
 from facthelp import CARE, each_says, says
 from shapely import hausdorff_distance, union_all
@@ -460,19 +460,15 @@ def test_wire_way_by_itself() -> None:
     """On whole numbers, where edges touch, and beside what is smaller than R all around."""
     square = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)]
 
-    def ring(corners: list[XY]) -> Contour:
-        ends = zip(corners, corners[1:] + corners[:1], strict=True)
-        return Contour(tuple(Edge(p, q) for p, q in ends), True)
-
-    inner = wire_path(ring(square[::-1]), 1.0)
+    inner = wire_path(closed(square[::-1]), 1.0)
     assert sorted(edge.start for edge in inner) == pytest.approx([(1, 1), (1, 3), (3, 1), (3, 3)])
-    outer = wire_path(ring(square), 1.0)
+    outer = wire_path(closed(square), 1.0)
     assert sum(edge.length for edge in outer) == pytest.approx(16 + 2 * pi)
     notch = [*square[:2], (4.0, 1.0), (2.0, 1.0), (2.0, 3.0), (4.0, 3.0), *square[2:]]
-    way = wire_path(ring(notch), 0.5)
+    way = wire_path(closed(notch), 0.5)
     assert sum(edge.length for edge in way) == pytest.approx(12 + 2 + 2 * 1.5 + 1 + 6 * pi / 4, abs=1e-6)
     with pytest.raises(NoRoom):
-        wire_path(ring(square[::-1]), 2.5)
+        wire_path(closed(square[::-1]), 2.5)
 
 
 def test_ways_without_any_length(run: Run, tmp_path: Path) -> None:
@@ -604,7 +600,7 @@ def test_a_slot_is_no_corner(wide: float, deep: float, is_refused: bool, r: floa
         (-half, 0),
     ]
     corners = corners if r > 0 else corners[::-1]
-    contour = Contour(tuple(Edge(p, q) for p, q in zip(corners, corners[1:] + corners[:1], strict=True)), True)
+    contour = closed(corners)
     if is_refused:
         with pytest.raises(NoRoom, match=NOT_THERE):
             wire_path(contour, r)

@@ -12,6 +12,7 @@ from skg.errors import UserError
 from skg.geometry.contour import Contour, Edge
 from skg.geometry.fitting import curve_edge
 from skg.geometry.plane import XY
+from skg.job.job import Job
 from skg.job.machine import UNASKED
 from skg.job.wanted import CutSettings
 from skg.messages.finding import Finding
@@ -109,7 +110,7 @@ class Cam:
 
     def cut(self, name: str, wanted: CutSettings) -> CutResult:
         """Make a tape of the cam."""
-        return make(plan(self.contours(), [], wanted), name, policy=UNASKED)
+        return make(plan(self.contours(), [], wanted), Job(name, policy=UNASKED))
 
     def _refuse_undercut(self) -> None:
         """Refuse a roller's path that bends more than the roller: it would cut into the profile."""

@@ -16,6 +16,7 @@ from skg.errors import UserError
 from skg.geometry.contour import Contour, Edge
 from skg.geometry.fitting import curve_edge
 from skg.geometry.plane import XY, polar
+from skg.job.job import Job
 from skg.job.machine import UNASKED
 from skg.job.wanted import CutSettings
 from skg.messages.finding import Finding
@@ -86,12 +87,12 @@ class Gear:
     def cut(self, name: str, wanted: CutSettings) -> CutResult:
         """Make a tape of the gear. The program has one tooth, and REP for the others; all of them with a tab, whose
         lead would be repeated, and where the board has no room for so long a tooth."""
-        contours = plan(self.contours(), [], wanted)
+        contours, job = plan(self.contours(), [], wanted), Job(name, policy=UNASKED)
         if not wanted.tab:
             contours = [planned if planned.number else self._from_a_tip(planned, wanted.lead) for planned in contours]
             with suppress(UserError):
-                return run(Program(contours, name, self._parts), policy=UNASKED)
-        return make(contours, name, policy=UNASKED)
+                return run(Program(contours, name, self._parts), job)
+        return make(contours, job)
 
     def _from_a_tip(self, planned: PlannedContour, lead: float) -> PlannedContour:
         """The outline, entered where a tooth begins: there the next one goes on."""

@@ -18,7 +18,8 @@ from skg.cutting.program import Program, Step, writes_fillets
 from skg.cutting.progress import Progress, in_silence
 from skg.errors import UserError
 from skg.geometry.offset import NoRoom
-from skg.job.machine import USUAL_BOARD, USUAL_POLICY, USUAL_SETUP, BoardOptions, Policy, Setup
+from skg.job.job import Job
+from skg.job.machine import BoardOptions, Setup
 from skg.messages.finding import Finding, Phrase
 from skg.planning.copies import Pattern
 from skg.planning.islands import islands
@@ -76,25 +77,19 @@ _Trouble = ErrorLine | list[Misfit]
 
 
 def make(
-    contours: list[PlannedContour],
-    title: str,
-    setup: Setup = USUAL_SETUP,
-    board: BoardOptions = USUAL_BOARD,
-    policy: Policy = USUAL_POLICY,
-    progress: Progress = in_silence,
-    pattern: Pattern | None = None,
+    contours: list[PlannedContour], job: Job, progress: Progress = in_silence, pattern: Pattern | None = None
 ) -> CutResult:
-    """Write the program that cuts the contours, let the board run it, check the tape.
+    """Write the program that cuts the contours of a job, let the board run it, check the tape.
 
     Each contour is written as it is drawn, unless the ROM or the check refuses that; then the remedies of `_RUNGS`
     follow, for this contour alone. Nothing is returned that is wrong: a contour that cannot be cut, or that is not cut
     as it is drawn, is a `UserError`. `pattern`: copies of all contours, which are cut instead.
     """
-    first = _made(_Ladder(contours, title, setup, board, policy, progress))
+    first = _made(_Ladder(contours, job, progress))
     if not pattern:
         return first
     # (what is wrong with the part is told of once)
-    result = _made(_Ladder(pattern.all_of(first.contours), title, setup, board, policy, progress, pattern))
+    result = _made(_Ladder(pattern.all_of(first.contours), job, progress, pattern))
     return replace(result, skipped=first.skipped + result.skipped)
 
 
@@ -103,18 +98,16 @@ def _made(ladder: _Ladder) -> CutResult:
     ladder.leave_short()
     ladder.tame()
     result = ladder.around_tips(ladder.through())
-    refusal.refuse(result.checked, result.contours, ladder.board, ladder.policy)
+    refusal.refuse(result.checked, result.contours, ladder.job)
     return replace(result, skipped=tuple(ladder.skipped))
 
 
-def run(
-    program: Program, setup: Setup = USUAL_SETUP, board: BoardOptions = USUAL_BOARD, policy: Policy = USUAL_POLICY
-) -> CutResult:
+def run(program: Program, job: Job) -> CutResult:
     """Let the board run a program, check the tape; one that is refused, or wrong, is a `UserError`."""
-    result = _tried(program, setup, board, in_silence)
+    result = _tried(program, job, in_silence)
     if isinstance(result, ErrorLine):
         raise UserError(refusal.meaning(result.number))
-    refusal.refuse(result.checked, result.contours, board, policy)
+    refusal.refuse(result.checked, result.contours, job)
     return result
 
 
@@ -156,28 +149,18 @@ class _Ladder:
     that are not cut; `pattern`: the copies that they are."""
 
     def __init__(
-        self,
-        contours: list[PlannedContour],
-        title: str,
-        setup: Setup,
-        board: BoardOptions,
-        policy: Policy,
-        progress: Progress,
-        pattern: Pattern | None = None,
+        self, contours: list[PlannedContour], job: Job, progress: Progress, pattern: Pattern | None = None
     ) -> None:
         self.contours = dict(enumerate(contours))
         self.skipped: list[Skipped] = []
-        self.title = title
-        self.setup, self.board, self.policy = setup, board, policy
-        self.progress = progress
-        self.pattern = pattern
+        self.job, self.progress, self.pattern = job, progress, pattern
 
     def leave_short(self) -> None:
         """Leave contours that are too short for their tab; a `UserError` where they are refused."""
         longest = {number: planned.remarks.longest_tab for number, planned in self.contours.items()}
         fits = {number: length for number, length in longest.items() if length is not None}
-        if fits and self.policy.small != "leave":
-            raise refusal.without_tab(self.contours, fits, self.policy)
+        if fits and self.job.policy.small != "leave":
+            raise refusal.without_tab(self.contours, fits, self.job.policy)
         self._leave({number: refusal.too_short(fit) for number, fit in fits.items()})
 
     def tame(self) -> None:
@@ -219,7 +202,7 @@ class _Ladder:
             tried = self._try(self.contours | around)
             if isinstance(tried, CutResult):
                 with suppress(UserError):
-                    refusal.refuse(tried.checked, tried.contours, self.board, self.policy)
+                    refusal.refuse(tried.checked, tried.contours, self.job)
                     return tried
                 break
             around = {number: planned for number, planned in around.items() if number not in tried}
@@ -227,10 +210,10 @@ class _Ladder:
 
     def _try(self, contours: dict[int, PlannedContour]) -> CutResult | Mapping[int, _Trouble]:
         """Cut some contours: what comes of it, or which do not go through."""
-        numbers, program = list(contours), Program(list(contours.values()), self.title, pattern=self.pattern)
-        result = _tried(program, self.setup, self.board, self.progress)
+        numbers, program = list(contours), Program(list(contours.values()), self.job.drawing, pattern=self.pattern)
+        result = _tried(program, self.job, self.progress)
         if isinstance(result, ErrorLine):
-            refused = _refused(program, self.board) or dict.fromkeys(range(len(numbers)), result)
+            refused = _refused(program, self.job.board) or dict.fromkeys(range(len(numbers)), result)
             return {numbers[index]: error for index, error in refused.items()}
         misfits: dict[int, list[Misfit]] = defaultdict(list)
         for fault in result.checked.faults:
@@ -263,7 +246,7 @@ class _Ladder:
 
     def _reason(self, trouble: _Trouble) -> Phrase | None:
         """The reason why a contour that nothing helps is left; None where it may not be."""
-        if self.policy.small != "leave" or isinstance(trouble, ErrorLine):
+        if self.job.policy.small != "leave" or isinstance(trouble, ErrorLine):
             return None
         return next(filter(None, (refusal.why_no_room(fault) for fault in trouble)), None)
 
@@ -271,9 +254,9 @@ class _Ladder:
         """Report a contour that nothing helps."""
         planned = self.contours[number]
         if not isinstance(trouble, ErrorLine):
-            return refusal.off_drawing(trouble, planned, self.board, self.policy)
+            return refusal.off_drawing(trouble, planned, self.job)
         _, steps, _ = Program([planned], "").unnumbered()
-        fed, done = feed_lines([_text([step]) for step in steps], self.board.rom, self.board.ram)
+        fed, done = feed_lines([_text([step]) for step in steps], self.job.board.rom, self.job.board.ram)
         if not fed.error:
             return UserError(refusal.meaning(trouble.number).about(planned.number))
         place = [planned.entry, *(step.place for step in steps[: done + 1] if step.place)][-1]
@@ -283,9 +266,9 @@ class _Ladder:
     def _leave_without_room(self, no_room: dict[int, NoRoom], among: Iterable[int]) -> None:
         """Leave contours that the wire does not get around; where they are refused, a `UserError` on all that there are
         among some."""
-        if no_room and self.policy.small != "leave":
+        if no_room and self.job.policy.small != "leave":
             no_room = {number: why for number in among if (why := _no_room(self.contours[number]))}
-            raise refusal.without_room(self.contours, no_room, self.policy)
+            raise refusal.without_room(self.contours, no_room, self.job.policy)
         self._leave({number: no_room[number].why for number in no_room})
 
     def _leave(self, reasons: dict[int, Phrase]) -> None:
@@ -320,17 +303,17 @@ def _no_room(planned: PlannedContour) -> NoRoom | None:
     return None
 
 
-def _tried(program: Program, setup: Setup, board: BoardOptions, progress: Progress) -> CutResult | ErrorLine:
+def _tried(program: Program, job: Job, progress: Progress) -> CutResult | ErrorLine:
     """Let the board run a program, and check the tape; the error where the ROM refuses it."""
     count = len(program.contours)
     progress("board", 0, count)
-    text, is_stored, fed = _through(program, board, lambda done: progress("board", done, count))
+    text, is_stored, fed = _through(program, job.board, lambda done: progress("board", done, count))
     if fed.error:
         return fed.error
     progress("check", 0, count)
     tape = tapes.parse(fed.tape, program.title)
-    checked = check(tape, program.contours, board.is_without_drift)
-    return CutResult(program.contours, text, is_stored, fed.tape, tape, checked, setup, board)
+    checked = check(tape, program.contours, job.board.is_without_drift)
+    return CutResult(program.contours, text, is_stored, fed.tape, tape, checked, job.setup, job.board)
 
 
 def _refused(program: Program, board: BoardOptions) -> dict[int, ErrorLine]:

@@ -11,6 +11,7 @@ from skg.checking.gouges import Crossing
 from skg.checking.wire_path import LIMIT, Misfit
 from skg.errors import UserError
 from skg.geometry.offset import NoRoom
+from skg.job.job import Job
 from skg.job.machine import BoardOptions, Policy
 from skg.messages.finding import Finding, Phrase
 from skg.planning.planned import PlannedContour
@@ -77,24 +78,24 @@ def why_no_room(fault: Misfit) -> Phrase | None:
     return Phrase("room-slot", place=fault.place) if fault.is_missed else None
 
 
-def off_drawing(faults: list[Misfit], planned: PlannedContour, board: BoardOptions, policy: Policy) -> UserError:
+def off_drawing(faults: list[Misfit], planned: PlannedContour, job: Job) -> UserError:
     """Report where a contour's wire is not where the drawing has it: first where it comes into the contour."""
     fault = min(faults, key=lambda fault: not fault.is_into)
     about: dict[str, Any] = {"name": planned.name, "contour": planned.number, "place": fault.place}
     if why := why_no_room(fault):
-        return UserError(Finding("into-itself", why=why, r=abs(planned.widest), leave=_or_leave(policy), **about))
-    advice = _advice(fault, planned, board)
+        return UserError(Finding("into-itself", why=why, r=abs(planned.widest), leave=_or_leave(job.policy), **about))
+    advice = _advice(fault, planned, job.board)
     if fault.off < inf:
         return UserError(Finding("off-drawing", off=1000 * fault.off, limit=1000 * LIMIT, advice=advice, **about))
     return UserError(Finding("far-off-drawing", advice=advice, **about))
 
 
-def refuse(checked: Checked, contours: list[PlannedContour], board: BoardOptions, policy: Policy) -> None:
+def refuse(checked: Checked, contours: list[PlannedContour], job: Job) -> None:
     """Raise what is wrong with a tape, if anything is, as a `UserError`."""
     if checked.faults:
         first = min(checked.faults, key=lambda fault: (not fault.is_into, fault.contour)).contour
         faults = [fault for fault in checked.faults if fault.contour == first]
-        raise off_drawing(faults, contours[first], board, policy)
+        raise off_drawing(faults, contours[first], job)
     for cut in checked.cuts:
         planned = contours[cut.contour]
         if planned.contour.is_closed and not planned.tabs.each and cut.gap != (0, 0):
@@ -111,8 +112,8 @@ def refuse(checked: Checked, contours: list[PlannedContour], board: BoardOptions
         for crossing in checked.crossings
         if all(contours[number].contour.is_closed for number in (crossing.contour, crossing.other))
     ]
-    if spoilt and policy.into != "cut":
-        raise _spoilt(spoilt, contours, policy)
+    if spoilt and job.policy.into != "cut":
+        raise _spoilt(spoilt, contours, job.policy)
 
 
 def _spoilt(spoilt: list[Crossing], contours: list[PlannedContour], policy: Policy) -> UserError:

@@ -268,7 +268,7 @@ def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> C
     drawn.placed(job).release()
     with placing.told_as_drawn(placement, *drawn.source):
         pattern = drawn.pattern(job)
-        result = make(contours, job.drawing, job.setup, job.board, job.policy, progress, pattern)
+        result = make(contours, job, progress, pattern)
     skipped = {number: UNWANTED for number, want in enumerate(wanted_of(job, drawn)) if not want.cut}
     if drawn.member:
         others = enumerate(wanted_of(job, drawn.whole))
