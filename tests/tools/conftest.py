@@ -15,8 +15,9 @@ import pytest
 from click.testing import CliRunner, Result
 from toolhelp import CAD_TAPE, Run
 
-from skg.cli import cli, main
+from skg.cli import cli, main, refusal
 from skg.commands.help import speak
+from skg.errors import UserError
 from skg.job.file import dump, load
 from skg.job.job import Job
 from skg.messages.render import speech
@@ -34,11 +35,15 @@ def libraries(build: Callable[..., None]) -> None:
 
 @pytest.fixture
 def run() -> Run:
-    """Run `skg` with arguments in this process; an exception that is no `UserError` fails the test."""
+    """Run `skg` with arguments in this process. An exception fails the test, but a refusal with --json."""
 
     def call(*arguments: object, stdin: bytes | str | None = None) -> Result:
         words = [str(argument) for argument in arguments]
         result = CliRunner(mix_stderr=False).invoke(cli, words, input=stdin)
+        if isinstance(result.exception, UserError) and "--json" in words:
+            result.stderr_bytes = refusal(result.exception.finding, result.exception.way, words).encode()
+            result.exit_code = 2
+            return result
         if result.exception is not None and not isinstance(result.exception, SystemExit):
             raise result.exception
         return result

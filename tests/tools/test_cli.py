@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -55,6 +57,38 @@ def test_mistyped_command(word: str, answer: Phrase) -> None:
     done = subprocess.run([SKG, word, "part.dxf"], capture_output=True, text=True)
     assert (done.returncode, done.stdout, done.stderr.count("\n")) == (2, "", 1)
     assert says(done.stderr, answer)
+
+
+@pytest.mark.parametrize(
+    ("words", "code"),
+    [
+        (["cut"], "wrong-usage"),
+        (["cut", "part.dxf", "--wier", "1"], "wrong-usage"),
+        (["cut", "part.dxf", "--wire", "x"], "wrong-usage"),
+        (["cut", "no.dxf"], "system-no-file"),
+        (["cut", "docs/pictures/bracket.dxf", "-o", ""], "empty-file-name"),
+        (["cut", "docs/pictures/bracket.dxf", "-o", os.devnull, "--offset", "4"], "no-room"),
+        (["check", "no.3b"], "system-no-file"),
+        (["sim", TAPE, "--feed", "0"], "wrong-usage"),
+    ],
+)
+def test_refusal_as_json(
+    words: list[str],
+    code: str,
+    run_program: Callable[..., subprocess.CompletedProcess[str]],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """One object, whoever refuses: click, the system, the command."""
+    monkeypatch.chdir(ROOT)
+    done = run_program(*words, "--json")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert json.loads(done.stderr)["error"].items() >= {"code": code, "severity": "error"}.items()
+
+
+def test_layers_as_json(run_program: Callable[..., subprocess.CompletedProcess[str]]) -> None:
+    done = run_program("cut", ROOT / "docs" / "pictures" / "bracket.dxf", "--list-layers", "--json")
+    assert done.returncode == 0
+    assert [layer["values"]["layer"] for layer in json.loads(done.stdout)["layers"]] == ["NOTES", "PART"]
 
 
 def test_as_a_module() -> None:

@@ -7,6 +7,7 @@ import gc
 import io
 import os
 import sys
+from collections.abc import Sequence
 from contextlib import suppress
 from difflib import get_close_matches
 from importlib import import_module
@@ -21,7 +22,7 @@ with interrupts_end():
     from skg.errors import UserError, of_system
     from skg.garbage import collect_rarely
     from skg.messages.finding import Finding, Phrase
-    from skg.messages.render import language_of_system, speech
+    from skg.messages.render import Speech, data, language_of_system, line, speech
     from skg.terminal import tell
 
 # numpy's linear algebra, which skg does without, would start a thread for each processor: a quarter of a short run.
@@ -167,19 +168,19 @@ def main() -> None:
         _flush()
     except click.UsageError as error:
         name = error.ctx.command_path if error.ctx else "skg"
-        _fail(str(Phrase("wrong-usage", what=error.format_message().rstrip(".。"), command=name)))
+        _fail(Finding("wrong-usage", what=error.format_message().rstrip(".。"), command=name))
     except click.ClickException as error:
-        _fail(error.format_message())
+        _fail(Finding("plain", text=error.format_message()))
     except UserError as error:
-        _fail(str(error))
+        _fail(error.finding, error.way)
     except (click.Abort, KeyboardInterrupt):
         sys.exit(130)
     except BrokenPipeError:
         _leave(1)
     except OSError as error:
         if error.filename == "":
-            _fail(str(Finding("empty-file-name")))
-        _fail(str(of_system(error).within(Phrase("stdout") if error.filename is None else error.filename)))
+            _fail(Finding("empty-file-name"))
+        _fail(of_system(error).within(Phrase("stdout") if error.filename is None else error.filename))
     # (else the interpreter looks through all that is left, and through all modules, once more before it ends)
     gc.freeze()
     sys.exit(code)
@@ -191,9 +192,18 @@ def _flush() -> None:
             stream.flush()
 
 
-def _fail(message: str) -> NoReturn:
+def refusal(finding: Finding, way: Speech | None, words: Sequence[str]) -> str:
+    """An error as a line, or as JSON where the words of the command line ask for it, though click refuse them."""
+    if "--json" not in words:
+        return f"skg: {line(finding, way)}"
+    import json
+
+    return json.dumps({"error": data(finding, way) | {"severity": "error"}})
+
+
+def _fail(finding: Finding, way: Speech | None = None) -> NoReturn:
     with suppress(OSError):
-        tell(f"skg: {message}")
+        tell(refusal(finding, way, sys.argv[1:]))
     _leave(2)
 
 

@@ -8,6 +8,7 @@ import click
 
 from skg.commands.options import Degrees, Millimetres
 from skg.commands.shape import shape_options, write_shape
+from skg.messages.finding import Phrase
 
 _LAWS = ("harmonic", "cycloidal", "polynomial")
 
@@ -37,4 +38,4 @@ def command(output: str, offset: float | None, tab: float, tape: str | None, **d
     from skg.cutting.cam import Cam
 
     cam = Cam(**dimensions)
-    write_shape(f"cam, {cam.law}, lift {cam.lift:g}", cam, output, offset, tab, tape)
+    write_shape(Phrase("cam", law=cam.law, lift=cam.lift), cam, output, offset, tab, tape)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import codecs
 import json
-import sys
 from collections.abc import Callable, Iterable
 from contextlib import ExitStack
 from os.path import realpath
@@ -347,13 +346,12 @@ def command(
 
     way = Speech(speech.language, Medium.JOB if is_job_file(file) else Medium.COMMAND)
     try:
-        report = _cut(context, file, output, list_layers, program, sheet, holes, setup, save_job, dialect, **options)
+        report = _cut(
+            context, file, output, list_layers, program, sheet, holes, setup, save_job, dialect, in_json, **options
+        )
     except UserError as error:
-        if not in_json:
-            error.way = way
-            raise
-        click.echo(json.dumps({"error": data(error.finding, way) | {"severity": "error"}}), err=True)
-        sys.exit(2)
+        error.way = way
+        raise
     if report is None:
         return
     if in_json:
@@ -392,6 +390,7 @@ def _cut(
     setup: str | None,
     save_job: str | None,
     dialect: GcodeDialect | None,
+    in_json: bool,
     **options: Any,  # noqa: ANN401
 ) -> list[tuple[CutDrawing, list[Finding]]] | None:
     """Cut the drawing and write the files: each result, and what there is to say of the tape's name; None: its layers
@@ -410,8 +409,11 @@ def _cut(
         job, path = _asked(context, file, kept, **options), file
     if list_layers:
         layers, notes = layer_lines(read_bytes(path), path, ReadOptions(encoding=job.read.encoding))
+        if in_json:
+            click.echo(json.dumps({"layers": list(map(data, layers)), "findings": list(map(data, notes))}))
+            return None
         for layer in layers:
-            show(layer)
+            show(str(layer))
         for note in notes:
             remark(note.within(path))
         return None

@@ -9,7 +9,7 @@ import click
 from skg.commands.options import Degrees, FiniteRange, Millimetres
 from skg.commands.shape import shape_options, write_shape
 from skg.errors import UserError
-from skg.messages.finding import Finding
+from skg.messages.finding import Finding, Phrase
 
 
 @click.command(name="gear")
@@ -62,5 +62,5 @@ def command(
     gear = Gear(**dimensions, key_width=keyway[0], key_depth=keyway[1])
     if any(keyway) and not gear.bore:
         raise UserError(Finding("keyway-without-bore"))
-    name = f"gear, module {gear.module:g}, {gear.teeth} teeth, {gear.pressure_angle:g} degrees"
+    name = Phrase("gear", module=gear.module, teeth=gear.teeth, angle=gear.pressure_angle)
     write_shape(name, gear, output, offset, tab, tape)

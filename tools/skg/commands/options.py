@@ -96,6 +96,11 @@ def spares_what_it_reads(function: Callable) -> Callable:
     return careful
 
 
+def _name(parameter: click.Parameter) -> str:
+    """A parameter as the user writes it."""
+    return parameter.opts[-1] if isinstance(parameter, click.Option) else parameter.human_readable_name
+
+
 def _refuse_onto(context: click.Context) -> None:
     """Raise a `UserError` when a command would write a file that it reads, or one file twice, or one without a name."""
     read: list[str] = []
@@ -103,7 +108,7 @@ def _refuse_onto(context: click.Context) -> None:
     for parameter in context.command.params:
         if isinstance(parameter.type, click.Path) and (value := context.params[parameter.name or ""]) is not None:
             if value == "":
-                raise UserError(Finding("empty-file-name").within(parameter.human_readable_name))
+                raise UserError(Finding("empty-file-name").within(_name(parameter)))
             is_read = isinstance(parameter, click.Argument) or parameter.name in ("answers", "file")
             (read if is_read else written).extend(map(str, value if isinstance(value, tuple) else [value]))
     read.extend(context.meta.get(_READ, []))

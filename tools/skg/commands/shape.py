@@ -15,6 +15,7 @@ from skg.terminal import tell
 if TYPE_CHECKING:
     from skg.cutting.cam import Cam
     from skg.cutting.gear import Gear
+    from skg.messages.finding import Phrase
 
 
 def shape_options(function: Callable) -> Callable:
@@ -31,15 +32,20 @@ def shape_options(function: Callable) -> Callable:
     return function
 
 
-def write_shape(name: str, shape: Gear | Cam, output: str, offset: float | None, tab: float, tape: str | None) -> None:
-    """Write the program that cuts a shape; it is run and its tape compared with the exact curves before."""
+def write_shape(
+    name: Phrase, shape: Gear | Cam, output: str, offset: float | None, tab: float, tape: str | None
+) -> None:
+    """Write the program that cuts a shape; it is run and its tape compared with the exact curves before.
+
+    `name`: what errors call it in the user's language; the program has it as a remark, in English.
+    """
     from skg.cutting.report import findings
     from skg.job.wanted import CutSettings
     from skg.messages.finding import Finding
-    from skg.messages.render import line
+    from skg.messages.render import Speech, line, text
 
     try:
-        result = shape.cut(name, CutSettings(offset=offset or 0.0, tab=tab))
+        result = shape.cut(text(name, Speech("en")), CutSettings(offset=offset or 0.0, tab=tab))
     except UserError as error:
         raise error.within(name) from None
     if any(planned.rung.wire and any(planned.passes) for planned in result.contours):

@@ -23,7 +23,6 @@ from skg.geometry.edge_arrays import boxes_of
 from skg.geometry.plane import XY, shifted
 from skg.job.read_options import OPEN, START, UNITS, ReadOptions
 from skg.messages.finding import Finding, Phrase
-from skg.messages.render import text
 
 # (all of these at once: what a library drops while it is loaded keeps alive all that those hold who called for it; what
 # reads SVG is loaded for that alone)
@@ -184,8 +183,8 @@ def _near_origin(reading: Reading) -> Reading:
     return replace(reading, contours=contours, starts=starts, others=others, opened=opened, **seen)
 
 
-def layer_lines(data: bytes, name: str, options: ReadOptions) -> tuple[list[str], list[Finding]]:
-    """List the entities of each layer of a drawing file, a line each; and what was guessed or mended to read it."""
+def layer_lines(data: bytes, name: str, options: ReadOptions) -> tuple[list[Phrase], list[Finding]]:
+    """List the entities of each layer of a drawing file; and what was guessed or mended to read it."""
     try:
         content, report = _content(data, name, options)
     except UserError as error:
@@ -193,9 +192,7 @@ def layer_lines(data: bytes, name: str, options: ReadOptions) -> tuple[list[str]
     kinds: dict[str, Counter[str]] = defaultdict(Counter)
     for entity in content.entities:
         kinds[entity.layer][entity.kind] += 1
-    return [
-        text(Phrase("layer-list", layer=layer, kinds=listed(kinds[layer]))) for layer in sorted(kinds)
-    ], report.findings
+    return [Phrase("layer-list", layer=layer, kinds=listed(kinds[layer])) for layer in sorted(kinds)], report.findings
 
 
 def _is_svg(data: bytes, name: str) -> bool:
