@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ast
+import inspect
 import io
 from collections.abc import Callable
 from random import Random
@@ -14,6 +16,7 @@ from test_reading import checked, dxf_bytes, line, polygon, raw, square
 
 from skg.errors import UserError
 from skg.messages.finding import Phrase
+from skg.reading import slow_dxf
 from skg.reading.dxf_record import NEEDED
 from skg.reading.read import Reading, ReadOptions, read
 
@@ -39,6 +42,15 @@ def with_block(*entities: str, block: str = BLOCK) -> bytes:
 
 def refused(reading: Reading) -> list[str]:
     return [entity.kind for entity in reading.report.not_understood]
+
+
+def test_every_kind_that_is_cut_has_what_it_needs() -> None:
+    """(A POLYLINE's places are its VERTEX; a HELIX is read as a SPLINE.)"""
+    cases = ast.walk(ast.parse(inspect.getsource(slow_dxf._edges)))
+    kinds = {node.value.value for node in cases if isinstance(node, ast.MatchValue)} - {"POLYLINE"}
+    assert len(kinds) > 7
+    assert kinds - NEEDED.keys() == set(), "no row in NEEDED: a place that is not in the file would be made up"
+    assert kinds - {"HELIX"} - WHOLE.keys() == set(), "no row in WHOLE"
 
 
 @pytest.mark.parametrize("kind", [kind for kind in WHOLE if kind != "MLINE"])
