@@ -6,7 +6,7 @@ import json
 import re
 import shlex
 import shutil
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 
 import pytest
@@ -19,7 +19,7 @@ from toolhelp import Run
 
 from skg.errors import UserError
 from skg.geometry.plane import XY
-from skg.job.file import decoded, dump, encoded, from_data, load, to_data
+from skg.job.file import _CONTOUR, _OFTEN, decoded, dump, encoded, from_data, load, to_data
 from skg.job.job import KINDS, Chosen, Job, Price, TapeForm
 from skg.job.machine import INTO, ROMS, SMALL, BoardOptions, Policy, Setup
 from skg.job.read_options import OPEN, UNITS, ReadOptions
@@ -117,6 +117,19 @@ def test_a_job_comes_back(job: Job) -> None:
     assert from_data(to_data(job), "job") == job
     assert dump(load(text, "job")) == text
     assert decoded(encoded(job), "job") == job
+
+
+def test_all_places_have_all_settings_of_a_contour() -> None:
+    names = {field.name for field in fields(CutSettings)}
+    page = (ROOT / "web" / "src" / "ui" / "fields.ts").read_text()
+    plans = page[page.index("const PLANS") : page.index("export class")]
+    places = {
+        "Overrides": {field.name for field in fields(Overrides)},
+        "job/file.py": _OFTEN.keys() | _CONTOUR.keys() - {"layer", "kind", "at", "size"},
+        "PLANS of fields.ts": set(re.findall(r'\bkey: "(\w+)"', plans)),
+    }
+    for place, those in places.items():
+        assert names - those == those - names == set(), place
 
 
 def test_names_that_are_no_text() -> None:

@@ -25,6 +25,8 @@ from skg.messages.severity import _CARE, _GUESS, _LOST, Severity, severity_of
 pytestmark = pytest.mark.wording
 
 SKG = Path(__file__).parents[2] / "tools" / "skg"
+#: The page's sources.
+UI = SKG.parents[1] / "web" / "src" / "ui"
 CATALOGUES = {
     language: {entry.msgid: entry for entry in polib.pofile(str(SKG / "messages" / f"{language}.po"))}
     for language in LANGUAGES
@@ -158,11 +160,20 @@ def test_advice_is_in_the_words_of_the_medium(monkeypatch: pytest.MonkeyPatch) -
 
 def test_pages_fields_have_the_labels_of_the_page() -> None:
     """Advice on the page names a field as the page does."""
-    words = (SKG.parents[1] / "web" / "src" / "ui" / "words.ts").read_text()
+    words = (UI / "words.ts").read_text()
     labels = [label for _, label in SETTINGS.values() if label not in ("label-fit-tolerance", "label-encoding")]
     for label in labels:
         pair = [text(Phrase(label), Speech(language)) for language in LANGUAGES]
         assert f'["{pair[0]}", "{pair[1]}"]' in words, label
+
+
+def test_page_takes_each_advice() -> None:
+    """By a button with its value, or by the field that decides it."""
+    known = set(re.findall(r'^  "?([\w-]+(?:=[\w-]+)?)"?: "', (UI / "fixes.ts").read_text(), re.M))
+    advised = {field for entry in CATALOGUES["en"].values() for field in settings(texts(entry)[-1])}
+    fields = {field.removeprefix("--") for field in advised if field.removeprefix("--").partition("=")[0] in SETTINGS}
+    assert len(fields) > 15 and len(known) > 20
+    assert {field for field in fields if not {field, field.partition("=")[0]} & known} == set(), "no row in fixes.ts"
 
 
 def test_inner_packages_know_no_options() -> None:

@@ -60,6 +60,7 @@ const FIELDS: Record<string, Word> = {
   gap: "gap",
   offset: "fixOffset",
   ram: "ram",
+  thickness: "thickness",
   side: "side",
   passes: "passes",
   tab: "tab",
