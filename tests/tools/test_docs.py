@@ -125,6 +125,18 @@ def test_every_option_stands_on_the_page() -> None:
     assert [(name, one.name) for name, one in options if not page & {*one.opts, *one.secondary_opts}] == []
 
 
+def test_every_key_of_a_job_stands_in_its_row() -> None:
+    """(Of a layer and a contour those of [default] need not be named again.)"""
+    from skg.job.file import _LISTS, _TOP, TABLES
+
+    rows = dict(re.findall(r"^\| `?(\(top\)|\[+\w+\]+)`? \| (.*) \|$", PAGE.read_text(), re.M))
+    tables = {"(top)": _TOP} | {f"[{name}]": keys for name, keys in TABLES.items()}
+    tables |= {f"[[{name}]]": keys.keys() - TABLES["default"].keys() for name, keys in _LISTS.items()}
+    rows["[[contour]]"] += rows["[[layer]]"]
+    for table, keys in tables.items():
+        assert [key for key in keys if f"`{key}`" not in rows[table]] == [], table
+
+
 def test_python() -> None:
     """The page's Python, and the package's own docstring."""
     done = doctest.testfile(str(PAGE), module_relative=False, encoding="utf-8")

@@ -83,7 +83,7 @@ def literals(node: ast.expr) -> Iterator[str]:
 
 def test_catalogues_have_the_same_codes_and_values() -> None:
     english, chinese = CATALOGUES["en"], CATALOGUES["zh"]
-    assert len(english) > 30 and english.keys() == chinese.keys()
+    assert len(english) > 30 and english.keys() ^ chinese.keys() == set()
     for code, entry in english.items():
         for sentence in texts(entry) + texts(chinese[code]):
             known = values(texts(entry)[-1])
