@@ -30,6 +30,11 @@ PAGES = [
 BLOCK = re.compile(r"^```.*\n(?:(?!```).*\n)*```$|(?:^    \S.*\n)+|^!\[(?P<caption>.*)\]\((?P<picture>.*)\)$", re.M)
 #: What is said of a command behind it is translated.
 REMARK = re.compile(r"(?m)^(    (?:make|py|python3) .*?\S) {3,}\S.*$")
+#: What `skg` prints is in the page's language; test_shop.py runs it. So are words that a command looks for, and the
+#: language that a page shows once.
+PRINTED = re.compile(r"^    (?!\$ ).*\n?|(?<=grep -E ')[^']*|(?<=--lang )\w+|(?<=build/)(?:en|zh)(?=\.)", re.M)
+#: Where it begins: a command of `skg`, or the report on the first screen of the README.
+REPORT = re.compile(r"    (?:\$ skg |70 x 30 mm)")
 HEADING = re.compile(r"^(#+) (.*)$", re.M)
 CODE = re.compile(r"`([^`\n]+)`")
 #: Words that stand in code and are translated.
@@ -42,6 +47,16 @@ WORDS = {
     "REM text": "REM 文字",
     "--punch FILE": "--punch 文件",
     "--tape FILE": "--tape 文件",
+    "--lang zh": "--lang en",
+    "warning": "注意",
+    "70 x 30 mm, read in mm": "70 x 30 mm，按 mm 读取",
+    "layer NOTES: … 1 not cut": "图层 NOTES：… 未切割 1",
+    "4 contours: 4 closed": "4 个轮廓：4 个封闭",
+    "3 openings, 1 outline; 4 start holes": "3 个内孔、1 个外轮廓；4 个穿丝孔",
+    "openings: wire inside, 0.1 mm beside": "内孔：电极丝在内侧，补偿 0.1 mm",
+    "cut length … 94 blocks, 6 stops": "切割长度 … 94 个程序段，6 次停机",
+    "made by the no-drift ROM": "由 no-drift ROM",
+    "at most 1.89 µm off the drawing": "与图纸最大偏差 1.89 µm",
 }
 
 
@@ -65,6 +80,8 @@ class Section:
         return [
             re.sub(r"-zh(?=\.png$)", "", str((self.folder / block["picture"]).resolve(strict=True)))
             if block["picture"]
+            else PRINTED.sub("", block[0])
+            if REPORT.match(block[0])
             else REMARK.sub(r"\1", block[0])
             for block in BLOCK.finditer(self.body)
         ]
@@ -168,7 +185,7 @@ def rewritten(chinese: Path, english: Path) -> str:
             sister = picture.with_name(f"{picture.stem}-zh{picture.suffix}")
             place = os.path.relpath(sister if sister.exists() else picture, chinese.parent)
             return f"![{match['caption'] or other['caption']}]({place})"
-        return match[0] if REMARK.search(other[0]) else other[0]
+        return match[0] if REMARK.search(other[0]) or REPORT.match(other[0]) else other[0]
 
     return BLOCK.sub(block, text)
 

@@ -12,15 +12,15 @@ import pytest
 ROOT = Path(__file__).parents[2]
 
 
-@pytest.mark.parametrize("name", ["README.md", "README.zh.md"])
-def test_first_screen(name: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize(("name", "language"), [("README.md", "en"), ("README.zh.md", "zh")])
+def test_first_screen(name: str, language: str, tmp_path: Path) -> None:
     screen = (ROOT / name).read_text().partition("\n## ")[0]
     (words,) = re.findall(r"^    skg (cut .*)$", screen, re.M)
     tape = tmp_path / "bracket.nodrift.3b"
     command = [
         Path(sys.executable).with_name("skg"),
         "--lang",
-        "en",
+        language,
         *words.replace("bracket.nodrift.3b", str(tape)).split(),
     ]
     report = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stderr.splitlines()

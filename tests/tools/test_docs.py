@@ -26,18 +26,20 @@ BRACKET = ROOT / "docs" / "pictures" / "bracket.dxf"
 EXAMPLE = re.compile(r"^    \$ (?P<command>.*)\n(?P<output>(?:    (?!\$ ).*\n|\n(?=    (?!\$ )))*)", re.M)
 
 
+#: Systems that speak a language, though its locale be not installed.
+SYSTEMS = {"en": {"LC_ALL": "C.UTF-8"}, "zh": {"LC_ALL": "", "LC_CTYPE": "C.UTF-8", "LANG": "zh_CN.UTF-8"}}
 #: What an example writes for later ones to read.
 WRITTEN = re.compile(r"(?:-o|--program|--save-job|>) (build/\S+?)(?=;|\s|$)")
 
 
-def printed(command: str, folder: Path = ROOT) -> str:
-    """The output of a command of the page in a folder, both streams."""
+def printed(command: str, folder: Path = ROOT, language: str = "en") -> str:
+    """The output of a command of the page in a folder, both streams, on a system of a language."""
     path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
     (folder / "build").mkdir(exist_ok=True)
     done = subprocess.run(
         ["bash", "-c", command],
         cwd=folder,
-        env={**os.environ, "PATH": path},
+        env={**os.environ, "PATH": path, **SYSTEMS[language]},
         text=True,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,

@@ -9,27 +9,32 @@ import pytest
 from test_docs import EXAMPLE, ROOT, indented, printed, with_links
 
 PAGE = ROOT / "docs" / "shop.md"
+#: The page in each language, on a system that speaks it.
+PAGES = {"en": PAGE, "zh": ROOT / "docs" / "zh" / "shop.md"}
+each = pytest.mark.parametrize("language", PAGES)
 #: Only a picture is written of these.
 _PICTURE = re.compile(r"(-o|--sheet) docs/pictures/\S+")
 
 
+@each
 @pytest.mark.wording
-def test_page(tmp_path: Path) -> None:
+def test_page(language: str, tmp_path: Path) -> None:
     """All commands in their order, in one folder: later ones read what earlier ones wrote."""
     with_links(tmp_path)
-    examples = list(EXAMPLE.finditer(PAGE.read_text()))
+    examples = list(EXAMPLE.finditer(PAGES[language].read_text()))
     assert len(examples) >= 12
     for example in examples:
         command = _PICTURE.sub(rf"\1 {tmp_path}/picture.svg", example["command"])
-        assert indented(printed(command, tmp_path)) == example["output"], command
+        assert indented(printed(command, tmp_path, language)) == example["output"], command
 
 
+@each
 @pytest.mark.wording
-def test_report_is_explained() -> None:
+def test_report_is_explained(language: str) -> None:
     """The report's lines in the page's table are in the report."""
-    text = PAGE.read_text()
+    text = PAGES[language].read_text()
     report = re.search(r"\$ skg cut docs/pictures/bracket.*\n((?:    .*\n)+)", text)[1]
-    told = re.search(r"\| the report says .*\n\|---.*\n((?:\|.*\n)+)", text)[1]
+    told = re.search(r"\| (?:the report says|报告里的话) .*\n\|---.*\n((?:\|.*\n)+)", text)[1]
     words = re.findall(r"^\| `(.+?)` \|", told, re.M)
     assert len(words) == len(told.splitlines()) >= 8
     for word in words:
@@ -47,6 +52,12 @@ def test_names_of_files() -> None:
 
 
 if __name__ == "__main__":
-    PAGE.write_text(
-        EXAMPLE.sub(lambda match: f"    $ {match['command']}\n{indented(printed(match['command']))}", PAGE.read_text())
-    )
+    for language, page in PAGES.items():
+        page.write_text(
+            EXAMPLE.sub(
+                lambda match, language=language: (
+                    f"    $ {match['command']}\n{indented(printed(match['command'], ROOT, language))}"
+                ),
+                page.read_text(),
+            )
+        )
