@@ -41,7 +41,7 @@ def run() -> Run:
         words = [str(argument) for argument in arguments]
         result = CliRunner(mix_stderr=False).invoke(cli, words, input=stdin)
         if isinstance(result.exception, UserError) and "--json" in words:
-            result.stderr_bytes = refusal(result.exception.finding, result.exception.way, words).encode()
+            result.stderr_bytes = refusal(result.exception.finding, result.exception.audience, words).encode()
             result.exit_code = 2
             return result
         if result.exception is not None and not isinstance(result.exception, SystemExit):

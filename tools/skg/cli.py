@@ -172,7 +172,7 @@ def main() -> None:
     except click.ClickException as error:
         _fail(Finding("plain", text=error.format_message()))
     except UserError as error:
-        _fail(error.finding, error.way)
+        _fail(error.finding, error.audience)
     except (click.Abort, KeyboardInterrupt):
         sys.exit(130)
     except BrokenPipeError:
@@ -192,18 +192,18 @@ def _flush() -> None:
             stream.flush()
 
 
-def refusal(finding: Finding, way: Speech | None, words: Sequence[str]) -> str:
+def refusal(finding: Finding, audience: Speech | None, words: Sequence[str]) -> str:
     """An error as a line, or as JSON where the words of the command line ask for it, though click refuse them."""
     if "--json" not in words:
-        return f"skg: {line(finding, way)}"
+        return f"skg: {line(finding, audience)}"
     import json
 
-    return json.dumps({"error": data(finding, way) | {"severity": "error"}})
+    return json.dumps({"error": data(finding, audience) | {"severity": "error"}})
 
 
-def _fail(finding: Finding, way: Speech | None = None) -> NoReturn:
+def _fail(finding: Finding, audience: Speech | None = None) -> NoReturn:
     with suppress(OSError):
-        tell(refusal(finding, way, sys.argv[1:]))
+        tell(refusal(finding, audience, sys.argv[1:]))
     _leave(2)
 
 

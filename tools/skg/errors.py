@@ -55,12 +55,12 @@ class UserError(Exception):
         super().__init__(finding)
         self.finding = finding
         #: The language and the medium of its text, where they are not the process's.
-        self.way: Speech | None = None
+        self.audience: Speech | None = None
 
     def __str__(self) -> str:
         from skg.messages.render import line
 
-        return line(self.finding, self.way)
+        return line(self.finding, self.audience)
 
     @property
     def contour(self) -> int | None:

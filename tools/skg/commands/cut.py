@@ -333,7 +333,7 @@ def command(
     dialect: GcodeDialect | None,
     quiet: bool,
     in_json: bool,
-    **options: object,
+    **options: Any,  # noqa: ANN401 (as click has them)
 ) -> None:
     """Cut a drawing: FILE (.dxf, .svg, or a job: .job.toml) becomes a 3B tape.
 
@@ -344,31 +344,42 @@ def command(
     """
     from skg.pipeline.pairing import named
 
-    way = Speech(speech.language, Medium.JOB if is_job_file(file) else Medium.COMMAND)
+    audience = Speech(speech.language, Medium.JOB if is_job_file(file) else Medium.COMMAND)
     try:
-        report = _cut(
-            context, file, output, list_layers, program, sheet, holes, setup, save_job, dialect, in_json, **options
-        )
+        kept = kept_setups().kept(setup) if setup is not None else {}
+        files = _Files(output, program, sheet, holes, save_job)
+        if is_job_file(file):
+            job, path = _loaded(file, context, kept)
+            refuse_onto(files.names, [path])
+        else:
+            job, path = _asked(context, file, kept, **options), file
+        if list_layers:
+            _list_layers(job, path, in_json)
+            return
+        _refuse_names(context, job, files, dialect)
+        if save_job:
+            _refuse_elsewhere(save_job, path)
+        report = _cut(job, [path, file], files, dialect)
+        if setup is not None:
+            report[0][1][:0] = _used(setup, kept, job)
     except UserError as error:
-        error.way = way
+        error.audience = audience
         raise
-    if report is None:
-        return
     if in_json:
-        told = {cut.member: _in_json(cut, more, way) for cut, more in report}
+        told = {cut.member: _in_json(cut, more, audience) for cut, more in report}
         click.echo(json.dumps(told.get("", told)), err=True)
         return
     for cut, more in report:
         for finding in (*cut.findings, *more):
             if finding.severity.is_kept or not quiet:
-                tell(line(finding.within(named(cut.member)) if cut.member else finding, way))
+                tell(line(finding.within(named(cut.member)) if cut.member else finding, audience))
 
 
-def _in_json(cut: CutDrawing, more: list[Finding], way: Speech) -> dict[str, object]:
+def _in_json(cut: CutDrawing, more: list[Finding], audience: Speech) -> dict[str, object]:
     """The report as plain data; lengths in mm."""
     result = cut.result
     return {
-        "findings": [data(finding, way) for finding in (*cut.findings, *more)],
+        "findings": [data(finding, audience) for finding in (*cut.findings, *more)],
         "blocks": len(result.tape.blocks),
         "stops": len(result.tape.stops),
         "length": round(result.cut_length, 4),
@@ -379,122 +390,120 @@ def _in_json(cut: CutDrawing, more: list[Finding], way: Speech) -> dict[str, obj
     }
 
 
+def _list_layers(job: Job, path: str, in_json: bool) -> None:
+    """Show the drawing's layers."""
+    layers, notes = layer_lines(read_bytes(path), path, ReadOptions(encoding=job.read.encoding))
+    if in_json:
+        click.echo(json.dumps({"layers": list(map(data, layers)), "findings": list(map(data, notes))}))
+        return
+    for layer in layers:
+        show(str(layer))
+    for note in notes:
+        remark(note.within(path))
+
+
+def _refuse_names(context: click.Context, job: Job, files: _Files, dialect: GcodeDialect | None) -> None:
+    """Refuse names of files that do not fit what is written."""
+    from skg.cutting.holes import refuse_name
+
+    if files.sheet:
+        picture_format(files.sheet, None)
+    if files.holes:
+        refuse_name(files.holes)
+    if is_gcode(files.output) and not dialect:
+        raise UserError(Finding("tape-named-gcode").within(files.output))
+    if not dialect and files.output != "-":
+        job.tape.refuse_name(Path(files.output).name)
+    elif dialect and (given := _given(context, job_files.TAPE)):
+        raise UserError(Finding("tape-of-machine", option=f"--{given[0].replace('_', '-')}"))
+
+
 def _cut(
-    context: click.Context,
-    file: str,
-    output: str,
-    list_layers: bool,
-    program: str | None,
-    sheet: str | None,
-    holes: str | None,
-    setup: str | None,
-    save_job: str | None,
-    dialect: GcodeDialect | None,
-    in_json: bool,
-    **options: Any,  # noqa: ANN401
-) -> list[tuple[CutDrawing, list[Finding]]] | None:
-    """Cut the drawing and write the files: each result, and what there is to say of the tape's name; None: its layers
-    were listed."""
+    job: Job, inputs: list[str], files: _Files, dialect: GcodeDialect | None
+) -> list[tuple[CutDrawing, list[Finding]]]:
+    """Cut the drawing, the first of the `inputs`, and write the files: each result, and what there is to say of its
+    files."""
     from skg.cutting import holes as holes_files
     from skg.dialects.compensated import to_be_set
-    from skg.pipeline.pairing import named
     from skg.pipeline.placing import told_as_drawn
     from skg.pipeline.steps import cut_all, open_drawing, written
 
-    kept = kept_setups().kept(setup) if setup is not None else {}
-    if is_job_file(file):
-        job, path = _loaded(file, context, kept)
-        refuse_onto([name for name in (output, program, sheet, holes, save_job) if name], [path])
-    else:
-        job, path = _asked(context, file, kept, **options), file
-    if list_layers:
-        layers, notes = layer_lines(read_bytes(path), path, ReadOptions(encoding=job.read.encoding))
-        if in_json:
-            click.echo(json.dumps({"layers": list(map(data, layers)), "findings": list(map(data, notes))}))
-            return None
-        for layer in layers:
-            show(str(layer))
-        for note in notes:
-            remark(note.within(path))
-        return None
-    form = picture_format(sheet, None) if sheet else ""
-    if holes:
-        holes_files.refuse_name(holes)
-    if is_gcode(output) and not dialect:
-        raise UserError(Finding("tape-named-gcode").within(output))
-    if not dialect and output != "-":
-        job.tape.refuse_name(Path(output).name)
-    elif dialect and (given := _given(context, job_files.TAPE)):
-        raise UserError(Finding("tape-of-machine", option=f"--{given[0].replace('_', '-')}"))
-    if save_job:
-        _refuse_elsewhere(save_job, path)
+    path = inputs[0]
     drawn = open_drawing(job, read_bytes(path), path)
-    cuts = cut_all(job, drawn)
-    names = [_Names(output, program, sheet, holes).of(cut.member, job.tape.short_name) for cut in cuts]
+    cuts = [(cut, files.of(cut.member, job.tape.short_name)) for cut in cut_all(job, drawn)]
     if len(cuts) > 1:
-        refuse_onto([name for each in names for name in each if name], [path, file, *filter(None, [save_job])])
+        # (the job is that of both)
+        names = [name for _, own in cuts for name in own[:4] if name]
+        refuse_onto(names, [*inputs, *filter(None, [files.job])])
     thick, tapes, others = job.setup.thickness, [], []
-    for cut, name in zip(cuts, names, strict=True):
-        if not dialect and name.output != "-":
-            job.tape.refuse_name(Path(name.output).name)
+    for cut, own in cuts:
+        if not dialect and own.output != "-":
+            job.tape.refuse_name(Path(own.output).name)
         with told_as_drawn(cut.placement):
             items = cut.result.tape.items
-            made = _for_machine(cut.result, dialect, name.output) if dialect else to_style(items, job.tape.style)
-        tapes.append((name.output, made))
-        if name.program:
-            others.append((name.program, cut.result.program.encode("ascii")))
-        if name.holes:
-            others.append((name.holes, holes_files.holes_file(cut.result.contours, thick, name.holes)))
+            made = _for_machine(cut.result, dialect, own.output) if dialect else to_style(items, job.tape.style)
+        tapes.append((own.output, made))
+        if own.program:
+            others.append((own.program, cut.result.program.encode("ascii")))
+        if own.holes:
+            others.append((own.holes, holes_files.holes_file(cut.result.contours, thick, own.holes)))
     for beside, content in others:
         write_bytes(beside, content)
-    if sheet:
-        from skg.pictures.sheet import Facts, write_sheet
-
-        drawing = Path(path).name if path != "-" else "-"
-        for cut, name in zip(cuts, names, strict=True):
-            if not name.sheet:
-                continue
-            tape = Path(name.output).name if name.output != "-" else "-"
-            whose = f"{drawing}: {named(cut.member)}" if cut.member else drawing
-            facts = Facts(whose, tape, cut.account.units, job.place.scale, tuple(cut.cost.figures()))
-            write_sheet(cut.result, facts, name.sheet, form)
-    if save_job:
-        write_bytes(save_job, job_files.encoded(written(job, drawn)))
+    for cut, own in cuts:
+        if own.sheet:
+            _write_sheet(job, cut, path, own)
+    if files.job:
+        write_bytes(files.job, job_files.encoded(written(job, drawn)))
     # (last: no tape where something else, or another tape, could not be written)
     with ExitStack() as stack:
         for stream, made in [(stack.enter_context(binary_output(name)), made) for name, made in tapes]:
             stream.write(made)
-    result: list[tuple[CutDrawing, list[Finding]]] = []
-    for cut, name in zip(cuts, names, strict=True):
-        if dialect is None:
-            more = unmarked(name.output, cut.result.tape, job.board.rom)
-        else:
-            more = to_be_set(cut.result.contours, dialect)
-        if name.holes:
-            more = [*holes_files.findings(cut.result.contours, thick, name.holes), *more]
-        result.append((cut, [*_used(setup, kept, job), *more] if setup is not None and not result else more))
-    return result
+    report = []
+    for cut, own in cuts:
+        contours = cut.result.contours
+        more = holes_files.findings(contours, thick, own.holes) if own.holes else []
+        more += to_be_set(contours, dialect) if dialect else unmarked(own.output, cut.result.tape, job.board.rom)
+        report.append((cut, more))
+    return report
 
 
-class _Names(NamedTuple):
-    """Files to be written."""
+def _write_sheet(job: Job, cut: CutDrawing, path: str, files: _Files) -> None:
+    """Write the setup sheet of a tape."""
+    from skg.pictures.sheet import Facts, write_sheet
+    from skg.pipeline.pairing import named
+
+    assert files.sheet is not None, "it is asked for"
+    drawing, tape = (Path(name).name if name != "-" else "-" for name in (path, files.output))
+    whose = f"{drawing}: {named(cut.member)}" if cut.member else drawing
+    facts = Facts(whose, tape, cut.account.units, job.place.scale, tuple(cut.cost.figures()))
+    write_sheet(cut.result, facts, files.sheet, picture_format(files.sheet, None))
+
+
+class _Files(NamedTuple):
+    """Names of the files to be written; `output`: the tape, or the machine's G-code."""
 
     output: str
     program: str | None
     sheet: str | None
     holes: str | None
+    job: str | None
 
-    def of(self, member: str, is_short: bool) -> _Names:
+    @property
+    def names(self) -> list[str]:
+        """Those that are asked for."""
+        return [name for name in self if name]
+
+    def of(self, member: str, is_short: bool) -> _Files:
         """Those of a punch, or of a die: NAME-punch; with a tape of a short name NAME-P. What is no file stays."""
         if not member:
             return self
-        if "-" in self:
+        if "-" in (self.output, self.program, self.sheet, self.holes):
             raise UserError(Finding("pair-on-stdout"))
         from skg.pipeline.pairing import ending_of
 
         ending = ending_of(member, is_short)
-        others = (name and _of_member(name, ending) for name in (self.program, self.sheet, self.holes))
-        return _Names(_of_member(self.output, ending), *others)
+        own = {kind: _of_member(name, ending) for kind, name in self._asdict().items() if name and kind != "job"}
+        return self._replace(**own)
 
 
 def _of_member(name: str, ending: str) -> str:

@@ -41,24 +41,24 @@ class Speech:
 speech = Speech()
 
 
-def text(phrase: Phrase, way: Speech | None = None) -> str:
-    """The sentence of a finding or phrase. `way`: its language and medium, else this process's."""
-    way = way or speech
+def text(phrase: Phrase, audience: Speech | None = None) -> str:
+    """The sentence of a finding or phrase. `audience`: its language and medium, else this process's."""
+    audience = audience or speech
     values = dict(phrase.values)
     if isinstance(phrase, Finding):
         values |= {"place": phrase.place} if "place" not in values else {}
     count = values.get("count")
-    return _Wording(way).vformat(template(phrase.code, way.language, count), (), values)
+    return _Wording(audience).vformat(template(phrase.code, audience.language, count), (), values)
 
 
-def line(finding: Finding, way: Speech | None = None) -> str:
+def line(finding: Finding, audience: Speech | None = None) -> str:
     """A finding as a line: its source, a mark of its severity, its sentence."""
-    way = way or speech
-    sentence = text(finding, way)
+    audience = audience or speech
+    sentence = text(finding, audience)
     if finding.severity is Severity.CARE:
-        sentence = text(Phrase("care", text=sentence), way)
-    separator = template("source-separator", way.language)
-    sources = [visible(source) if isinstance(source, str) else text(source, way) for source in finding.source]
+        sentence = text(Phrase("care", text=sentence), audience)
+    separator = template("source-separator", audience.language)
+    sources = [visible(source) if isinstance(source, str) else text(source, audience) for source in finding.source]
     return separator.join([*sources, sentence])
 
 
@@ -77,8 +77,8 @@ def advice(phrase: Phrase) -> Iterator[tuple[str, str | None]]:
 class _Wording(string.Formatter):
     """Puts values into a template."""
 
-    def __init__(self, way: Speech) -> None:
-        self._way = way
+    def __init__(self, audience: Speech) -> None:
+        self._audience = audience
         self._values: Mapping[str, Any] = {}
 
     def vformat(self, format_string: str, args: Sequence[Any], kwargs: Mapping[str, Any]) -> str:
@@ -100,7 +100,7 @@ class _Wording(string.Formatter):
 
     def setting(self, name: str, value: str | None) -> str:
         """A setting as its option, its key, or the field of the page."""
-        medium, language = self._way.medium, self._way.language
+        medium, language = self._audience.medium, self._audience.language
         if medium is Medium.COMMAND or name not in SETTINGS:
             return f"--{name}" + (f" {value}" if value else "")
         table, label = SETTINGS[name]
@@ -124,11 +124,13 @@ class _Wording(string.Formatter):
         if value is None:
             return ""
         if isinstance(value, Phrase):
-            return text(value, self._way)
+            return text(value, self._audience)
         if format_spec == "xy" and not isinstance(value[0], tuple | list):
             return shown(value)
         if isinstance(value, tuple | list):
-            separator = template("sentence-separator" if format_spec == ";" else "list-separator", self._way.language)
+            separator = template(
+                "sentence-separator" if format_spec == ";" else "list-separator", self._audience.language
+            )
             return separator.join(self.format_field(item, format_spec) for item in value)
         if isinstance(value, str):
             return visible(value)
@@ -139,7 +141,7 @@ class _Wording(string.Formatter):
         return format(value, format_spec)
 
 
-def data(finding: Phrase, way: Speech | None = None) -> dict[str, Any]:
+def data(finding: Phrase, audience: Speech | None = None) -> dict[str, Any]:
     """A finding as plain data, for other programs."""
     plain: dict[str, Any] = {"code": finding.code, "values": {name: _plain(value) for name, value in finding.values}}
     if isinstance(finding, Finding):
@@ -147,7 +149,7 @@ def data(finding: Phrase, way: Speech | None = None) -> dict[str, Any]:
         plain |= {name: value for name in ("contour", "place") if (value := getattr(finding, name)) is not None}
         plain["source"] = [_plain(source) for source in finding.source]
         plain["advice"] = [{"setting": name, "value": value} for name, value in advice(finding)]
-        plain["text"] = line(finding, way)
+        plain["text"] = line(finding, audience)
     return plain
 
 

@@ -47,8 +47,11 @@ def told(error: UserError) -> dict[str, Any]:
 
 def said(phrase: Phrase) -> list[str]:
     """A sentence in each of `LANGUAGES`: the page shows that of its own; a finding's has its source and its mark."""
-    ways = (Speech(language, Medium.PAGE) for language in LANGUAGES)
-    return [visible(line(phrase, way) if isinstance(phrase, Finding) else text(phrase, way)) for way in ways]
+    audiences = (Speech(language, Medium.PAGE) for language in LANGUAGES)
+    return [
+        visible(line(phrase, audience) if isinstance(phrase, Finding) else text(phrase, audience))
+        for audience in audiences
+    ]
 
 
 def facts(finding: Finding) -> dict[str, Any]:

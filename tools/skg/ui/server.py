@@ -405,9 +405,9 @@ class Handler(BaseHTTPRequestHandler):
         name, style = (
             _field(data, key, str) if key in data else usual for key, usual in (("name", ""), ("style", "punch"))
         )
-        is_over, is_short = (data.get(key) is True for key in ("overwrite", "short"))
+        is_over, form = data.get("overwrite") is True, TapeForm(style, data.get("short") is True)
         language = _language(data.get("language"))
-        written = self.server.session.save(run, kinds, is_over, name, style, is_short, language)
+        written = self.server.session.save(run, kinds, is_over, name, form, language)
         self._send_json({"written": written})
 
     def _rest(self, query: dict[str, str], number: str, block: str) -> None:

@@ -601,19 +601,11 @@ class Session:
         return files
 
     def save(
-        self,
-        number: int | None,
-        kinds: list[str],
-        is_over: bool,
-        name: str = "",
-        style: str = "punch",
-        is_short: bool = False,
-        language: str = "",
+        self, number: int | None, kinds: list[str], is_over: bool, name: str, form: TapeForm, language: str
     ) -> list[str]:
         """Write files of a run beside the drawing: their names. Some that are there are a `Conflict`.
 
-        `name`: that of the files, without endings, else the drawing's; `style`: of the tape; `is_short`: see `named`;
-        `language`: of the sheet.
+        `name`: that of the files, without endings, else the drawing's; `form`: of the tape; `language`: of the sheet.
         """
         if self._path is None:
             raise UserError(Finding("no-folder"))
@@ -622,8 +614,7 @@ class Session:
             raise UserError(Finding("bad-request", detail=detail))
         if number is None and kinds != ["job"]:
             raise UserError(Finding("bad-request", detail="run: expected a number, for what is made by a run"))
-        form = TapeForm(style, is_short)
-        names, folder = self.named(name, is_short), self._path.parent
+        names, folder = self.named(name, form.short_name), self._path.parent
         if number is not None:
             names |= {} if name else {"tape": ""}
             files = self._files_of(number, kinds, names, form, language)

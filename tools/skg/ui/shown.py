@@ -78,11 +78,11 @@ def _edge(edge: Edge) -> list[Any]:
 
 def line(entry: Finding, member: str = "") -> dict[str, Any]:
     """A line of a report, on one of a pair."""
-    ways = [Speech(language, Medium.PAGE) for language in LANGUAGES]
-    texts = [text(entry, way) for way in ways]
+    audiences = [Speech(language, Medium.PAGE) for language in LANGUAGES]
+    texts = [text(entry, audience) for audience in audiences]
     if member:
         separators = (template("source-separator", language) for language in LANGUAGES)
-        names = (text(named(member), way) for way in ways)
+        names = (text(named(member), audience) for audience in audiences)
         texts = ["".join(parts) for parts in zip(names, separators, texts, strict=True)]
     told_line = {"text": texts, "care": entry.severity is Severity.CARE} | facts(entry)
     # (who has decided on it is not asked again while its values are the same)
