@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -26,6 +27,7 @@ BLOCKS = [
 ]
 
 #: The CAD package's tape of tape-3b.md in other styles, and what is noted.
+ROOT = Path(__file__).parents[2]
 SAME = {
     "published": (
         "B 9900B 0B 9900 GX L3 B 0B 70100B 70100 GY L2 B 55000B 0B 55000 GX L3 B 50100B 100B 100000 GY NR1"
@@ -215,6 +217,17 @@ def test_every_style_is_read_again(items: list[Block | Stop]) -> None:
     for style in STYLES:
         tape = tapes.parse(to_style(items, style))
         assert to_style(tape.items, "punch") == own, style
+
+
+def test_every_style_stands_on_the_pages() -> None:
+    """In docs/tools.md, and where the page of `skg ui` has them chosen."""
+    sources = ROOT / "web" / "src" / "ui"
+    section = (ROOT / "docs" / "tools.md").read_text().partition("\nStyles to write:")[2].partition("\n\n")[0]
+    types = re.search(r"^export type Style = (.*);", (sources / "types.ts").read_text(), re.M)[1]
+    options = re.search(r'<select id="save-style">(.*)</select>', (sources / "index.html").read_text(), re.S)[1]
+    assert [style for style in STYLES if f"`{style}`" not in section] == [], "docs/tools.md"
+    assert re.findall(r'"(\w+)"', types) == list(STYLES), "types.ts"
+    assert re.findall(r'value="(\w+)"', options) == list(STYLES), "index.html"
 
 
 def test_start_point(run: Run, tmp_path: Path) -> None:
