@@ -53,7 +53,7 @@ WORDS = {
     "layer NOTES: … 1 not cut": "图层 NOTES：… 未切割 1",
     "4 contours: 4 closed": "4 个轮廓：4 个封闭",
     "3 openings, 1 outline; 4 start holes": "3 个内孔、1 个外轮廓；4 个穿丝孔",
-    "openings: wire inside, 0.1 mm beside": "内孔：电极丝在内侧，补偿 0.1 mm",
+    "openings: wire inside, offset 0.1 mm": "内孔：电极丝在内侧，补偿 0.1 mm",
     "cut length … 94 blocks, 6 stops": "切割长度 … 94 个程序段，6 次停机",
     "made by the no-drift ROM": "由 no-drift ROM",
     "at most 1.89 µm off the drawing": "与图纸最大偏差 1.89 µm",

@@ -124,7 +124,7 @@ _BESIDE_A_JOB = (
     "--holes",
     metavar="FILE",
     type=click.Path(),
-    help="Also write the start holes for who drills them: .csv, a list, or .nc, a drilling program (G81).",
+    help="Also write the start holes, to be drilled: .csv, a list, or .nc, a drilling program (G81).",
 )
 @click.option("--wire", type=Millimetres(0, 2 * MOST_OFFSET, min_open=True), help="Diameter of the wire.")
 @click.option(
@@ -195,7 +195,7 @@ _BESIDE_A_JOB = (
     show_default=False,
     metavar="TIMES",
     type=FiniteRange(1 / values.MOST_SCALE, values.MOST_SCALE),
-    help="Cut the part so many times as large as it is drawn; the report says so. Wire, leads and tabs stay.",
+    help="Scale the part by this factor; the report says so. Wire, leads and tabs keep their size.",
 )
 @click.option(
     "--clearance",
@@ -206,13 +206,13 @@ _BESIDE_A_JOB = (
     "--clearance-on",
     default="punch",
     type=click.Choice(CLEARANCE_ON),
-    help="Which of both takes the clearance: the punch is so much smaller, or the die larger; the other is to size.",
+    help="Which of the two takes the clearance: a smaller punch, or a larger die; the other is to size.",
 )
 @click.option("--columns", default=1, metavar="N", type=click.IntRange(1), help="Number of copies side by side.")
 @click.option("--rows", default=1, metavar="N", type=click.IntRange(1), help="Number of rows of copies.")
-@click.option("--step", type=COORDINATES, help="From one copy to the next, mm: to the right, and up.")
+@click.option("--step", type=COORDINATES, help="Step from one copy to the next, mm: to the right, and up.")
 @click.option("--around", default=1, metavar="N", type=click.IntRange(1), help="Number of copies around a place.")
-@click.option("--about", type=COORDINATES, help="The place of the drawing that copies lie around.")
+@click.option("--about", type=COORDINATES, help="Centre of the copies: a place of the drawing.")
 @click.option(
     "--every",
     type=Degrees(-360, 360),
@@ -251,7 +251,7 @@ _BESIDE_A_JOB = (
     default=1,
     metavar="N",
     type=click.IntRange(1, values.MOST_TABS),
-    help="Number of tabs on a contour, each behind it with a start hole.",
+    help="Number of tabs on a contour; a start hole follows each.",
 )
 @click.option(
     "--tab-passes",
@@ -270,8 +270,7 @@ _BESIDE_A_JOB = (
     "--small",
     default="refuse",
     type=click.Choice(SMALL),
-    help="Refuse or leave closed contours that are too small or narrow for the wire beside them, or too short for "
-    "the tab.",
+    help="Refuse or skip closed contours that are too small or narrow for the wire, or too short for the tab.",
 )
 @click.option(
     "--into",
@@ -295,29 +294,31 @@ _BESIDE_A_JOB = (
     "--rates",
     metavar="N,N,...",
     type=RATES,
-    help="mm² a minute in each pass: with --thickness the time goes by these, and not by --feed.",
+    help="Cutting rate of each pass, mm²/min: with --thickness the time goes by these, not by --feed.",
 )
-@click.option("--per-area", metavar="N,N,...", type=PRICES, help="Price of a mm² in each pass.")
+@click.option("--per-area", metavar="N,N,...", type=PRICES, help="Price per mm², for each pass.")
 @click.option("--per-hole", metavar="N", type=FiniteRange(0, values.MOST_MONEY), help="Price of a start hole.")
 @click.option(
     "--per-pass", metavar="N", type=FiniteRange(0, values.MOST_MONEY), help="Price of a pass along a contour."
 )
-@click.option("--currency", metavar="TEXT", type=WORDS, help="Currency of the prices, behind each sum.")
+@click.option("--currency", metavar="TEXT", type=WORDS, help="Currency, printed after each sum.")
 @click.option(
     "--style",
     type=click.Choice(list(STYLES)),
     default="punch",
     help="Style of the tape's blocks, as `skg tape` has them.",
 )
-@click.option("--short-name", is_flag=True, help="Refuse a tape's name that is no .3b of at most eight letters.")
-@click.option("--setup", metavar="NAME", help="A kept setup, for all settings that are not given (docs/tools.md).")
+@click.option(
+    "--short-name", is_flag=True, help="Refuse a name for the tape other than .3b with at most eight letters."
+)
+@click.option("--setup", metavar="NAME", help="Saved setup, for all settings that are not given (docs/tools.md).")
 @click.option(
     "--save-job", metavar="FILE", type=click.Path(), help="Also write the settings, as a job file: .job.toml."
 )
 @machine_option(
     "Write G-code for this machine instead of 3B: one that comes with skg (docs/machines.md), or a file .toml."
 )
-@click.option("--quiet", is_flag=True, help="Print warnings alone.")
+@click.option("--quiet", is_flag=True, help="Print only warnings, guesses, the setup, and what is not cut.")
 @click.option("--json", "in_json", is_flag=True, help="Print the report, or the refusal, as JSON for other programs.")
 @click.pass_context
 def command(

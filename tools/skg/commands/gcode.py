@@ -51,7 +51,7 @@ def _heights(heights: tuple[float, ...] | None) -> tuple[int, int] | None:
     "--z",
     "heights",
     type=_ONE_OR_TWO,
-    help="Cutting height and travel height (left out: 5), mm: re-positionings go up and down instead of stopping.",
+    help="Cutting height, and travel height (default: 5), mm: between contours the tool lifts instead of stopping.",
 )
 @positions_option
 @machine_option(

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 @click.command(name="plot")
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(allow_dash=True))
 @output_option("Picture to write, .svg, .png or .pdf; - for the standard output.", required=True)
-@click.option("--format", "form", type=click.Choice(FORMATS), help="Format, if the name does not tell.")
+@click.option("--format", "form", type=click.Choice(FORMATS), help="Format, where the name of the file has none.")
 @click.option("--blocks", is_flag=True, help="Write every block's number beside it.")
 @click.option(
     "--wire",

@@ -23,7 +23,7 @@ from skg.terminal import remark
     help="Let the controller's misses at the ends of arcs add up, or start each block where it really stands.",
 )
 @click.option("--mill", is_flag=True, help="The milling machine's language and its ISO tape, as roms/skg-mill.bin.")
-@click.option("--grbl", is_flag=True, help="The same with LF alone behind each block, as roms/skg-grbl.bin.")
+@click.option("--grbl", is_flag=True, help="The same with LF alone after each block, as roms/skg-grbl.bin.")
 def command(part: str, output: str, answers: str | None, drift: bool, mill: bool, grbl: bool) -> None:
     """Run PART in 50-digit arithmetic: the exact tape that it must give, 3B or, with --mill, ISO.
 

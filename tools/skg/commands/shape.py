@@ -23,7 +23,7 @@ def shape_options(function: Callable) -> Callable:
     for option in (
         click.option("--tape", metavar="FILE", type=click.Path(), help="Also write the tape, by the no-drift ROM."),
         click.option(
-            "--tab", default=0.0, show_default=False, type=Millimetres(0), help="Length of the bridge, as in `skg cut`."
+            "--tab", default=0.0, show_default=False, type=Millimetres(0), help="Length of the tab, as in `skg cut`."
         ),
         offset_option("The wire's distance from the contour, R: half the wire plus the gap. Default: 0."),
         output_option("Program to write, - for the standard output."),

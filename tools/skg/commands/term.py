@@ -63,7 +63,7 @@ BOARD_BAUD = {"rc2014": 115200, "rc2014-sio": 115200, "minimax8085": 19200, "rcb
     help="Leave when the board has answered the last line and the tape's DD was punched; nobody is at the keyboard.",
 )
 @click.option(
-    "--quiet", default=3.0, type=Seconds(0, min_open=True), help="Time that --batch waits for more without a prompt."
+    "--quiet", default=3.0, type=Seconds(0, min_open=True), help="Seconds without a prompt after which --batch leaves."
 )
 @click.option(
     "--silence",
