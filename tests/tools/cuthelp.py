@@ -6,7 +6,7 @@ import json
 import re
 from collections.abc import Iterator
 from itertools import pairwise
-from math import cos, sin
+from math import cos, pi, sin
 from pathlib import Path
 from typing import Any
 
@@ -47,6 +47,11 @@ def polygon(corners: list[XY], page: Drawing, **attributes: object) -> Polygon:
 def closed(corners: list[XY], *layers: str) -> Contour:
     """A closed contour of lines."""
     return Contour(tuple(map(Edge, corners, corners[1:] + corners[:1])), True, layers)
+
+
+def circle(x: float, y: float, radius: float) -> Contour:
+    """A circle, counter-clockwise from its +X side."""
+    return Contour((Edge((x + radius, y), (x + radius, y), (x, y), 2 * pi),), True)
 
 
 def choose(drawn: DrawnJob, number: int, **settings: object) -> Chosen:

@@ -17,7 +17,19 @@ import numpy as np
 import pytest
 import shapely
 from click.testing import Result
-from cuthelp import LIMIT, apart, closed, drawing, polygon, run_failing, saved, start_holes, stretches, values_of
+from cuthelp import (
+    LIMIT,
+    apart,
+    circle,
+    closed,
+    drawing,
+    polygon,
+    run_failing,
+    saved,
+    start_holes,
+    stretches,
+    values_of,
+)
 from ezdxf.document import Drawing
 from facthelp import CARE, each_says, pattern, says
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -284,12 +296,11 @@ def test_wrong_tapes_are_found() -> None:
     from skg.checking.check import check
     from skg.cutting.ladder import make
     from skg.cutting.refusal import refuse
-    from skg.geometry.contour import Contour, Edge
     from skg.planning.plan import plan
 
     corners = [(0.0, 0.0), (20.0, 0.0), (20.0, 10.0), (8.0, 14.0)]
     outline = closed(corners)
-    round_hole = Contour((Edge((13.0, 5.0), (13.0, 5.0), (10.0, 5.0), 2 * pi),), True)
+    round_hole = circle(10.0, 5.0, 3.0)
     contours = plan([outline, round_hole], [], CutSettings(offset=0.1))
     result = make(contours, Job("part"))
     assert not result.checked.faults and result.checked.off < LIMIT
@@ -403,11 +414,7 @@ def test_a_circle_too_many_is_found() -> None:
 )
 def test_a_part_in_a_round_opening_is_left_whole(inner: XY, radius: float, is_from_centre: bool) -> None:
     """The wire begins in an opening's centre where it meets no part from there on, else aside."""
-    from skg.geometry.contour import Contour, Edge
     from skg.planning.plan import plan
-
-    def circle(x: float, y: float, r: float) -> Contour:
-        return Contour((Edge((x + r, y), (x + r, y), (x, y), 2 * pi),), True)
 
     contours = plan([circle(0, 0, 10), circle(0, 0, 20), circle(*inner, radius)], [], CutSettings(offset=0.1))
     (opening,) = (way for way in contours if way.is_opening and not way.number)
@@ -958,15 +965,11 @@ def test_the_middles_of_straight_pieces_hide_nothing(monkeypatch: pytest.MonkeyP
     from skg.checking import check_coverage, check_distance
     from skg.checking.check import check
     from skg.cutting.ladder import make
-    from skg.geometry.contour import Contour, Edge
     from skg.geometry.pieces import Pieces
     from skg.planning.plan import plan
 
-    def hole(x: float, y: float) -> Contour:
-        return Contour((Edge((x + 0.5, y), (x + 0.5, y), (x, y), 2 * pi),), True)
-
     outline = closed([(0.0, 0.0), (40.0, 0.0), (40.0, 10.0), (20.0, 10.4), (0.0, 10.0)])
-    contours = plan([outline, hole(20.0, 5.0)], [], CutSettings(offset=0.1))
+    contours = plan([outline, circle(20.0, 5.0, 0.5)], [], CutSettings(offset=0.1))
     made = make(contours, Job("part"))
     bottom = re.search(rb"B(\d+)B0+B\1GXL1", made.data) or re.search(rb"B(\d+)B0+B\1GXL3", made.data)
     long = int(bottom[1])
@@ -979,9 +982,9 @@ def test_the_middles_of_straight_pieces_hide_nothing(monkeypatch: pytest.MonkeyP
     bump = straight(long // 2, 20, up) + b"\r\n" + straight(long - long // 2, 20, down)
     over = straight(long // 2, 400, up) + b"\r\n" + straight(long - long // 2, 400, down)
     tapes_of = [made.data, *(made.data.replace(bottom[0], other) for other in (bump, over))]
-    near = plan([outline, hole(20.0, 0.55)], [], CutSettings(offset=0.1))
+    near = plan([outline, circle(20.0, 0.55, 0.5)], [], CutSettings(offset=0.1))
     tilted = plan(
-        [closed([(0.0, 0.0), (40.0, 0.004), (40.0, 10.0), (20.0, 10.4), (0.0, 10.0)]), hole(20.0, 5.0)],
+        [closed([(0.0, 0.0), (40.0, 0.004), (40.0, 10.0), (20.0, 10.4), (0.0, 10.0)]), circle(20.0, 5.0, 0.5)],
         [],
         CutSettings(offset=0.1),
     )
@@ -1086,7 +1089,6 @@ def test_sheet(tmp_path: Path, size: float, columns: int, kinds: list[str]) -> N
     """Numbers do not touch each other, other texts, the part or another hole's mark; marks are smaller than what they
     mark."""
     from skg.cutting.ladder import make
-    from skg.geometry.contour import Contour, Edge
     from skg.pictures.sheet import Facts, SetupSheet
     from skg.planning.plan import plan
 
@@ -1095,7 +1097,7 @@ def test_sheet(tmp_path: Path, size: float, columns: int, kinds: list[str]) -> N
     for at in range(columns**2):
         x, y = (size * (0.5 + k) / columns for k in divmod(at, columns))
         radius = size / columns / 4
-        contours.append(Contour((Edge((x + radius, y), (x + radius, y), (x, y), 2 * pi),), True))
+        contours.append(circle(x, y, radius))
     result = make(
         plan(contours, [], CutSettings(offset=size / 1e4, lead=size / 20)),
         Job("part", setup=Setup(wire=0.18, gap=0.01)),
@@ -1175,7 +1177,7 @@ def test_each_number_belongs_to_one_hole(width: float) -> None:
     from skg.planning.plan import plan
 
     places = [(x + dx, y) for x in (1.0, 4.0, 7.0) for y in (1.0, 3.0) for dx in (0.0, 0.45)]
-    contours = [Contour((Edge((x + 0.2, y), (x + 0.2, y), (x, y), 2 * pi),), True) for x, y in places]
+    contours = [circle(x, y, 0.2) for x, y in places]
     rest = [(0.0, 4.0), (width, 4.0), (width, 9.0), (0.0, 9.0)]
     contours.append(Contour(tuple(Edge(p, q) for p, q in zip(rest, rest[1:] + rest[:1], strict=True)), True))
     result = make(plan(contours, [], CutSettings(offset=0.1, side="inside")), Job("part"))

@@ -11,6 +11,7 @@ from math import cos, inf, pi, sin
 import numpy as np
 import pytest
 import shapely
+from cuthelp import circle, closed
 from shapely.geometry import LineString, Point, Polygon
 from toolhelp import in_time
 
@@ -22,17 +23,9 @@ from skg.geometry.field import Field
 from skg.geometry.holding import Holding
 from skg.geometry.piece import Piece
 from skg.geometry.pieces import Pieces
-from skg.geometry.plane import XY, polar
+from skg.geometry.plane import polar
 from skg.planning.order import nearest_order
 from skg.reading.meetings import _near_others
-
-
-def ring(points: list[XY]) -> Contour:
-    return Contour(tuple(Edge(p, q) for p, q in zip(points, [*points[1:], points[0]], strict=True)), True)
-
-
-def circle(x: float, y: float, radius: float) -> Contour:
-    return Contour((Edge((x + radius, y), (x + radius, y), (x, y), 2 * pi),), True)
 
 
 def field_of(contours: list[Contour]) -> Field:
@@ -50,7 +43,7 @@ def thrown(seed: int, count: int) -> list[Contour]:
             found.append(circle(x - width, y, width))
         else:
             corners = [(x, y), (x + width, y), (x + width, y + height), (x, y + height)]
-            found.append(ring([(float(u), float(v)) for u, v in corners[: rng.choice((3, 4))]]))
+            found.append(closed([(float(u), float(v)) for u, v in corners[: rng.choice((3, 4))]]))
     zigzag = [(0.5 * k, 20.0 + k % 2) for k in range(91)]
     return [*found, Contour(tuple(Edge(p, q) for p, q in zip(zigzag, zigzag[1:], strict=False)), False)]
 
@@ -77,8 +70,8 @@ def test_boxes() -> None:
 def test_contours_that_come_near(seed: int) -> None:
     """None is ignored that lies within reach of another one, to the last bit; what lies by itself in a frame or a
     circle is."""
-    frame = ring([(-30, -30), (90, -30), (90, 90), (-30, 90)])
-    alone, one_of_two, other = (ring([(x, 60), (x + 1, 60), (x + 1, 61)]) for x in (60, 70, 71.4))
+    frame = closed([(-30, -30), (90, -30), (90, 90), (-30, 90)])
+    alone, one_of_two, other = (closed([(x, 60), (x + 1, 60), (x + 1, 61)]) for x in (60, 70, 71.4))
     circles = [circle(200, 0, 9), circle(201, 1, 7), circle(250, 0, 9), circle(250, 2.6, 6)]
     contours, reach = [frame, alone, one_of_two, other, *circles, *thrown(seed, 25)], 0.5
     lines = lines_of(contours)
@@ -156,9 +149,9 @@ def test_what_lies_around(seed: int) -> None:
 
 def test_depths_of_many() -> None:
     """Rings within rings, each begun at another corner, and one of 3,000 chords around them all."""
-    rings = [ring([(k, k), (60 - k, k), (60 - k, 60 - k), (k, 60 - k)]) for k in range(20)]
-    round_about = ring([(30 + 50 * cos(k * pi / 1500), 30 + 50 * sin(k * pi / 1500)) for k in range(3000)])
-    aside = ring([(200, 0), (210, 0), (205, 5)])
+    rings = [closed([(k, k), (60 - k, k), (60 - k, 60 - k), (k, 60 - k)]) for k in range(20)]
+    round_about = closed([(30 + 50 * cos(k * pi / 1500), 30 + 50 * sin(k * pi / 1500)) for k in range(3000)])
+    aside = closed([(200, 0), (210, 0), (205, 5)])
     assert Holding([*rings, round_about, aside]).depths() == [*range(1, 21), 0, 0]
     assert Holding([]).depths() == []
 
@@ -254,7 +247,7 @@ def test_depths_of_neighbours() -> None:
             x, y, width, height = rng.randint(0, 6), rng.randint(0, 6), rng.randint(1, 5), rng.randint(1, 5)
             corners = [(x, y), (x + width, y), (x + width, y + height), (x, y + height)]
             first = rng.randrange(4)
-            contours.append(ring([(float(u), float(v)) for u, v in corners[first:] + corners[:first]]))
+            contours.append(closed([(float(u), float(v)) for u, v in corners[first:] + corners[:first]]))
         shapes = [Polygon(one.points()) for one in contours]
         for at, (shape, depth) in enumerate(zip(shapes, Holding(contours).depths(), strict=True)):
             others = shapes[:at] + shapes[at + 1 :]
@@ -268,14 +261,14 @@ def test_depths_of_what_crosses() -> None:
     """Round reliefs in the corners of a plate's notch and of its window are openings, each like the other."""
     plate = [(0, 0), (40, 0), (40, 20), (25, 20), (25, 14), (15, 14), (15, 20), (0, 20)]
     window = [(10, 4), (30, 4), (30, 10), (10, 10)]
-    reliefs = [Contour((Edge((x + 1, y), (x + 1, y), (x, y), 2 * pi),), True) for x, y in [(15, 14), (25, 14), *window]]
-    shapes = [ring([(float(x), float(y)) for x, y in corners]) for corners in (plate, window)]
+    reliefs = [circle(x, y, 1) for x, y in [(15, 14), (25, 14), *window]]
+    shapes = [closed([(float(x), float(y)) for x, y in corners]) for corners in (plate, window)]
     assert Holding([*reliefs, *shapes]).depths() == [1] * 6 + [0, 1]
 
 
 def test_depths_of_what_is_as_large() -> None:
     """Two squares that cross, each as large as the other: neither is an opening of the other."""
-    squares = [ring([(x, y), (x + 9, y), (x + 9, y + 9), (x, y + 9)]) for x, y in ((0.0, 0.0), (2.1, 3.3))]
+    squares = [closed([(x, y), (x + 9, y), (x + 9, y + 9), (x, y + 9)]) for x, y in ((0.0, 0.0), (2.1, 3.3))]
     assert Holding(squares).depths() == [0, 0]
 
 
@@ -286,7 +279,7 @@ def test_depths_of_crossed_slots(is_turned: bool) -> None:
 
     def box(x: int, y: int, width: int, height: int) -> Contour:
         corners = [(x, y), (x + width, y), (x + width, y + height), (x, y + height)]
-        return ring([(float(v), float(u)) if is_turned else (float(u), float(v)) for u, v in corners])
+        return closed([(float(v), float(u)) if is_turned else (float(u), float(v)) for u, v in corners])
 
     plate, window = box(0, 0, 60, 40), box(2, 20, 30, 18)
     slots = [

@@ -7,7 +7,6 @@ import os
 import pty
 import select
 import subprocess
-import sys
 import termios
 import threading
 import time
@@ -17,12 +16,11 @@ from pathlib import Path
 
 import pytest
 from facthelp import each_says, says
-from toolhelp import CAD_TAPE, PATIENCE
+from toolhelp import CAD_TAPE, PATIENCE, SKG, term
 
 from skg.board.teletype import DC2, DC4, XOFF, XON, Splitter
 from skg.messages.finding import Phrase
 
-SKG = Path(sys.executable).with_name("skg")
 PROGRAM = "10 REM A PART\n20 CUT P1,P2\n30 END\n"
 
 
@@ -150,10 +148,6 @@ def machine(tmp_path: Path) -> Iterator[Machine]:
     one = Machine(tmp_path / "port")
     yield one
     one.stop()
-
-
-def term(*arguments: object, stdin: str = "") -> subprocess.CompletedProcess[bytes]:
-    return subprocess.run([SKG, "term", *map(str, arguments)], input=stdin.encode(), capture_output=True)
 
 
 def test_sends_and_records(machine: Machine, tmp_path: Path) -> None:

@@ -4,19 +4,18 @@ from __future__ import annotations
 
 import contextlib
 import subprocess
-import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 from facthelp import CARE, says
+from toolhelp import SKG, term
 
 from skg.board.feeding import feed
 from skg.messages.finding import Finding, Phrase
 
 ROOT = Path(__file__).resolve().parents[2]
-SKG = Path(sys.executable).with_name("skg")
 SKG80 = ROOT / "build" / "skg80"
 ROMS = ROOT / "roms"
 PARTS = ["xy-star", "plate-fillets", "wrench"]
@@ -65,10 +64,6 @@ def emulator(directory: Path, rom: str = "skg", *options: str) -> Iterator[Emula
     finally:
         if machine.process.poll() is None:
             machine.unplug()
-
-
-def term(*arguments: object, stdin: str = "") -> subprocess.CompletedProcess[bytes]:
-    return subprocess.run([SKG, "term", *map(str, arguments)], input=stdin.encode(), capture_output=True)
 
 
 @pytest.mark.parametrize("name", PARTS)

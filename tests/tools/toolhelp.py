@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import gc
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from time import process_time
@@ -11,6 +13,7 @@ from typing import TypeVar
 from click.testing import Result
 
 ROOT = Path(__file__).parents[2]
+SKG = Path(sys.executable).with_name("skg")
 #: Seconds; only what hangs takes so long, on a busy machine too.
 PATIENCE = 600
 
@@ -24,6 +27,11 @@ CAD_TAPE = (
     b"B9900B0B9900GXL3\r\nB0B70100B70100GYL2\r\nB55000B0B55000GXL3\r\n"
     b"B50100B100B100000GYNR1\r\nB54900B0B54900GXL3\r\nDD\r\n"
 )
+
+
+def term(*arguments: object, stdin: str = "") -> subprocess.CompletedProcess[bytes]:
+    """`skg term` as a program."""
+    return subprocess.run([SKG, "term", *map(str, arguments)], input=stdin.encode(), capture_output=True)
 
 
 def timed(work: Callable[[], T]) -> tuple[T, float]:
