@@ -12,7 +12,7 @@ from skg.geometry.plane import XY
 from skg.messages.finding import Finding
 from skg.planning.planned import PlannedContour
 from skg.tape.block import micrometres
-from skg.tape.gcode import ENDINGS, Spot, drilling, is_gcode
+from skg.tape.gcode import ENDINGS, Spot, drilling, is_gcode, spot
 from skg.tape.gcode_program import Drilled
 from skg.tape.gcode_reader import read
 
@@ -58,7 +58,7 @@ def drilled(contours: Sequence[PlannedContour], thickness: float | None, name: s
     """The program that drills the holes through the stock, by G81."""
     if thickness is None:
         raise UserError(Finding("drill-without-thickness").within(name))
-    holes, depth = [_spot(hole) for hole, _ in holes_of(contours)], -micrometres(thickness + OVER)
+    holes, depth = [spot(hole) for hole, _ in holes_of(contours)], -micrometres(thickness + OVER)
     text = drilling(holes, depth, micrometres(CLEAR), FEED, _NOTE)
     if read(text, name).path.marks != [Drilled(hole, Decimal(depth)) for hole in holes]:
         raise UserError(Finding("read-back-empty").within(name))
@@ -70,9 +70,5 @@ def holes_of(contours: Iterable[PlannedContour]) -> list[tuple[XY, PlannedContou
     holes: dict[Spot, tuple[XY, PlannedContour]] = {}
     for planned in contours:
         for hole in planned.holes:
-            holes.setdefault(_spot(hole), (hole, planned))
+            holes.setdefault(spot(hole), (hole, planned))
     return list(holes.values())
-
-
-def _spot(place: XY) -> Spot:
-    return micrometres(place[0]), micrometres(place[1])

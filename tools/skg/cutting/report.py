@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from skg.checking.follow import Stretch
 from skg.checking.wire_path import LIMIT
@@ -13,7 +13,7 @@ from skg.cutting.ladder import CutResult
 from skg.cutting.manner import manners, numbered, stops
 from skg.cutting.refusal import depth
 from skg.job.machine import Setup
-from skg.messages.finding import Finding, Phrase
+from skg.messages.finding import Finding, Phrase, beyond
 from skg.planning import nesting, walls
 from skg.planning.nesting import in_brackets
 from skg.planning.planned import LeadShape, PlannedContour, Reason, kind_of
@@ -39,7 +39,7 @@ def findings(result: CutResult, offset: float = 0.0) -> list[Finding]:
             Finding("contour-not-cut", name=skipped.name, why=skipped.why, contour=skipped.number)
             for skipped in result.skipped[:_PLACES]
         ),
-        *_more(result.skipped, "more-not-cut"),
+        *beyond(_PLACES, result.skipped, "more-not-cut"),
         *nesting.findings((planned.turn, planned.remarks.around) for planned in contours),
         *_corners(contours),
         *_crossings(result),
@@ -196,13 +196,7 @@ def _corners(contours: list[PlannedContour]) -> list[Finding]:
 
 def _first(kind: list[Finding]) -> list[Finding]:
     """The first findings of a kind, one for each contour, and how many more there are."""
-    return [*kind[:_PLACES], *_more(kind, "more-such-contours")]
-
-
-def _more(every: Sequence, code: str) -> list[Finding]:
-    """Number of entries left out of a list with a line each."""
-    more = len(every) - _PLACES
-    return [Finding(code, count=more)] * (more > 0)
+    return [*kind[:_PLACES], *beyond(_PLACES, kind, "more-such-contours")]
 
 
 def _closing(cuts: list[Stretch], contours: list[PlannedContour]) -> Phrase | None:

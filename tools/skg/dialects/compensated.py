@@ -18,7 +18,7 @@ from skg.planning.planned import PlannedContour, Reason
 from skg.planning.runs import Lead, Run
 from skg.tape.block import micrometres
 from skg.tape.dialect import GcodeDialect
-from skg.tape.gcode import GcodeWriter, Spot, decimal
+from skg.tape.gcode import GcodeWriter, Spot, decimal, spot
 
 
 def compensated(contours: Sequence[PlannedContour], dialect: GcodeDialect, feed: float) -> tuple[str, list[Piece]]:
@@ -42,7 +42,7 @@ def compensated(contours: Sequence[PlannedContour], dialect: GcodeDialect, feed:
         writer.all_of(filled(words.define, offset) for offset in offsets)
     for planned in contours:
         for run in planned.runs():
-            hole = _spot(run.into.threaded if run.into else planned.start)
+            hole = spot(run.into.threaded if run.into else planned.start)
             if writer.spot is None:
                 writer.begin(hole)
             elif hole != writer.spot:
@@ -92,7 +92,7 @@ class _Cut:
                 self.straight(piece.end)
             else:
                 self.path.append(piece)
-                writer.arc(_spot(piece.end), _spot(piece.centre), 1 if piece.sweep > 0 else -1, self.feed)
+                writer.arc(spot(piece.end), spot(piece.centre), 1 if piece.sweep > 0 else -1, self.feed)
         if run.offset:
             writer.block(words.off)
         if run.out:
@@ -106,7 +106,7 @@ class _Cut:
         """A line to a place, mm."""
         x, y = self.writer.here  # (begun at a hole)
         self.path.append(Piece((x / 1000, y / 1000), place))
-        self.writer.line(_spot(place), self.feed)
+        self.writer.line(spot(place), self.feed)
 
 
 def _ways(run: Run) -> tuple[tuple[Edge, ...], tuple[Edge, ...]]:
@@ -132,7 +132,3 @@ def _as_drawn(planned: PlannedContour) -> PlannedContour:
 
 def _beside(run: Run) -> int:
     return micrometres(abs(run.offset))
-
-
-def _spot(place: XY) -> Spot:
-    return micrometres(place[0]), micrometres(place[1])

@@ -153,6 +153,11 @@ class Contour:
         """Points along the contour, see `Edge.points`."""
         return [point for edge in self.edges for point in edge.points()[:-1]] + [self.edges[-1].end]
 
+    @property
+    def ends(self) -> tuple[XY, XY]:
+        """Its first and its last place."""
+        return self.edges[0].start, self.edges[-1].end
+
     @cached_property
     def area(self) -> float:
         """Signed area: positive when a closed contour runs counter-clockwise."""

@@ -101,13 +101,17 @@ class Pieces:
 
     def normal(self, which: Whole, part: Floats) -> Floats:
         """Unit vectors to the right of travel at parts of the lengths of pieces."""
-        way = self.end[which] - self.start[which]
-        length = np.maximum(np.hypot(way[:, 0], way[:, 1]), 1e-300)
+        way, length = self._chords(which)
         result = np.stack((way[:, 1], -way[:, 0]), 1) / length[:, None]
         arcs = np.flatnonzero(self.is_arc[which])
         arc = which[arcs]
         result[arcs] = self._out(arc, part[arcs]) * np.sign(self.sweep[arc])[:, None]
         return result
+
+    def _chords(self, which: Whole) -> tuple[Floats, Floats]:
+        """Vectors from the starts of pieces to their ends, and their lengths, none of them 0."""
+        way = self.end[which] - self.start[which]
+        return way, np.maximum(np.hypot(way[:, 0], way[:, 1]), 1e-300)
 
     def _out(self, arcs: Whole, part: Floats) -> Floats:
         """Unit vectors from the centres of arcs to parts of their lengths."""
@@ -220,8 +224,7 @@ class Pieces:
     def right_of(self, places: Floats, which: Whole) -> Floats:
         """Distance of each place to the right of the whole line or circle of its piece, negative to the left."""
         to = places - self.start[which]
-        way = self.end[which] - self.start[which]
-        length = np.maximum(np.hypot(way[:, 0], way[:, 1]), 1e-300)
+        way, length = self._chords(which)
         line = (to[:, 1] * -way[:, 0] + to[:, 0] * way[:, 1]) / length
         about = places - self.centre[which]
         arc = (np.hypot(about[:, 0], about[:, 1]) - self.radius[which]) * np.sign(self.sweep[which])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Self, TypeVar
 
@@ -87,6 +87,12 @@ class Finding(Phrase):
     def moved(self, to: _Move) -> Self:
         """The same with all its places elsewhere, those of its parts too."""
         return _replaced(super().moved(to), place=self.place and to(self.place))
+
+
+def beyond(shown: int, entries: Sequence, code: str) -> list[Finding]:
+    """The count of the entries behind those that are shown with a line each; no finding where there are none."""
+    more = len(entries) - shown
+    return [Finding(code, count=more)] if more > 0 else []
 
 
 _P = TypeVar("_P", bound=Phrase)

@@ -91,8 +91,8 @@ class Facts:
 
 
 @dataclass(frozen=True)
-class _Table:
-    """The table of start holes: its columns, rows in each, whether it stands beside the drawing or under it."""
+class _TableForm:
+    """The form of the table of start holes: columns, rows in each, whether it stands beside the drawing or under it."""
 
     columns: int
     rows: int
@@ -107,8 +107,11 @@ class _Taken:
 
     def along(self, places: np.ndarray) -> None:
         """Take what a line passes; places no further apart than the grid."""
-        indices = np.clip((places / _GRID).astype(int), 0, np.array(self.cells.shape) - 1)
-        self.cells[indices[:, 0], indices[:, 1]] = True
+        self.cells[self._passed(places)] = True
+
+    def _passed(self, places: np.ndarray) -> tuple[np.ndarray, ...]:
+        """The cells in which places are."""
+        return tuple(np.clip((places / _GRID).astype(int), 0, np.array(self.cells.shape) - 1).T)
 
     def _corners(self, places: np.ndarray, behind: int) -> np.ndarray:
         """The cells of places, or those `behind` them, as ends of slices."""
@@ -116,8 +119,7 @@ class _Taken:
 
     def is_free_along(self, places: np.ndarray) -> bool:
         """Tell whether nothing is where a line passes; places no further apart than the grid."""
-        indices = np.clip((places / _GRID).astype(int), 0, np.array(self.cells.shape) - 1)
-        return not self.cells[indices[:, 0], indices[:, 1]].any()
+        return not self.cells[self._passed(places)].any()
 
     def are_free(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
         """In which of some boxes, near to each other, nothing is; their lower and upper corners (n × 2)."""
@@ -175,9 +177,9 @@ class SetupSheet:
         self.larger = _LARGER if rows <= _ROWS else 1.0
         most = int(_WIDEST * self.page[0] / _COLUMN)
         in_column = per_column[self.page == _A3]
-        beside = _Table(max(1, min(most, ceil(rows / in_column))), in_column, is_beside=True)
+        beside = _TableForm(max(1, min(most, ceil(rows / in_column))), in_column, is_beside=True)
         wide = int((self.page[0] - 2 * _MARGIN) / (self.larger * _COLUMN))
-        under = _Table(min(wide, rows), ceil(rows / wide), is_beside=False)
+        under = _TableForm(min(wide, rows), ceil(rows / wide), is_beside=False)
         self._measure()
         # (a long part has more room above the table)
         self.table = max(beside, under, key=self._scale_beside)
@@ -196,7 +198,7 @@ class SetupSheet:
         self._wire()
         self._dimensions()
         left_out = self._mark_holes()
-        self._table()
+        self._draw_table()
         self._title(left_out)
 
     @staticmethod
@@ -226,7 +228,7 @@ class SetupSheet:
         holes = np.array([hole for hole, _ in self.holes] + [self.low, self.high])
         self.least, self.most = holes.min(0), holes.max(0)
 
-    def _room(self, table: _Table) -> tuple[float, float]:
+    def _room(self, table: _TableForm) -> tuple[float, float]:
         """Width and height that a table leaves to the drawing, mm."""
         wide, high = self.page[0] - 2 * _MARGIN, self.page[1] - _MARGIN - self.foot
         if table.is_beside:
@@ -235,10 +237,10 @@ class SetupSheet:
             high -= self._height(table)
         return wide - _AROUND - _BESIDE, high - _AROUND - _BESIDE
 
-    def _height(self, table: _Table) -> float:
+    def _height(self, table: _TableForm) -> float:
         return (table.rows + 2) * _ROW * self.larger
 
-    def _scale_beside(self, table: _Table) -> float:
+    def _scale_beside(self, table: _TableForm) -> float:
         """The scale of the drawing beside a table."""
         size = [max(b - a, 1e-3) for a, b in zip(self.least, self.most, strict=True)]
         fits = min(max(space, 1.0) / side for space, side in zip(self._room(table), size, strict=True))
@@ -445,7 +447,7 @@ class SetupSheet:
                 return middles[number], line
         return None
 
-    def _table(self) -> None:
+    def _draw_table(self) -> None:
         """Number, place, kind and length of each start hole."""
         table = self.table
         lengths = dict.fromkeys((planned.turn for _, planned in self.holes), 0.0)

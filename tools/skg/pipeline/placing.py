@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from skg.errors import UserError
+from skg.geometry.arrays import Floats
 from skg.geometry.contour import Contour
 from skg.geometry.edge_arrays import boxes_of
 from skg.geometry.placement import Placement
@@ -31,7 +32,7 @@ def placement_of(place: Place, cut: Sequence[Contour], shift: XY) -> Placement:
     boxes = boxes_of([turned.contour(contour) for contour in cut])[0] if cut else np.empty((0, 4))
     if isinstance(place.origin, str) and cut:
         wide, high = ORIGINS[place.origin]
-        (left, low), (right, top) = boxes[:, :2].min(0).tolist(), boxes[:, 2:].max(0).tolist()
+        (left, low), (right, top) = _around(boxes)
         origin = turned.back.place((left + wide * (right - left), low + high * (top - low)))
     else:
         x, y = place.origin if isinstance(place.origin, tuple) else (-shift[0], -shift[1])
@@ -45,12 +46,18 @@ def placement_of(place: Place, cut: Sequence[Contour], shift: XY) -> Placement:
     return made
 
 
+def _around(boxes: Floats) -> tuple[XY, XY]:
+    """The lower left and the upper right corner of the box around boxes (n × 4)."""
+    low, high = boxes[:, :2].min(0).tolist(), boxes[:, 2:].max(0).tolist()
+    return tuple(low), tuple(high)
+
+
 def pattern_of(copies: Copies, placement: Placement, cut: Sequence[Contour]) -> Pattern:
     """The copies on the machine. `cut`: the contours that are cut, as they are drawn; copies that would lie too far
     away are a `UserError`."""
     pattern = Pattern(copies, placement.place(copies.about or (0.0, 0.0)))
     boxes, _ = boxes_of([placement.contour(contour) for contour in cut])
-    (left, low), (right, top) = boxes[:, :2].min(0).tolist(), boxes[:, 2:].max(0).tolist()
+    (left, low), (right, top) = _around(boxes)
     corners = [(left, low), (left, top), (right, low), (right, top)]
     places = (to.place(corner) for to in pattern.placements for corner in corners)
     if (far := max(max(map(abs, place)) for place in places)) >= FARTHEST:

@@ -37,7 +37,7 @@ def nearly_closed(lines: Sequence[Contour]) -> Iterator[NearlyClosed]:
     """Find what some open lines enclose when each free end is joined to the nearest other end, if that is near."""
     if not lines:
         return
-    places = [place for line in lines for place in (line.edges[0].start, line.edges[-1].end)]
+    places = [place for line in lines for place in line.ends]
     count, points = Counter(places), shapely.points(places)
     lengths = np.repeat([sum(edge.length for edge in line.edges) for line in lines], 2)
     ends, others = shapely.STRtree(points).query_nearest(points, exclusive=True, all_matches=False)

@@ -10,7 +10,7 @@ from typing import Any
 from skg.geometry.contour import Edge
 from skg.geometry.plane import XY
 from skg.job.read_options import MEET
-from skg.messages.finding import Finding, Phrase
+from skg.messages.finding import Finding, Phrase, beyond
 
 #: Why what only writes on a drawing, or fills what is drawn, is left.
 NOTE = Phrase("reason-nothing-to-cut")
@@ -210,11 +210,11 @@ class Account:
             else:
                 about: dict[str, Any] = {"gap": end.gap, "other": end.other, "advice": end.advice}
                 report.append(Finding("open-end", place=end.place, **about))
-        report += _more(self.open_ends, "more-open-ends")
+        report += beyond(_PLACES, self.open_ends, "more-open-ends")
         for entity in self.not_understood[:_PLACES]:
             about = {"kind": entity.kind, "layer": entity.layer, "why": entity.reason}
             report.append(Finding("entity-not-cut", place=entity.place, **about))
-        report += _more(self.not_understood, "more-not-understood")
+        report += beyond(_PLACES, self.not_understood, "more-not-understood")
         report += _of_no_outline(self.rest)
         for kind in _OVERLAPS:
             report += _overlaps(kind, [overlap for overlap in self.overlaps if overlap.kind == kind])
@@ -248,11 +248,6 @@ def _mended(mends: Iterable[Mend]) -> list[Finding]:
         lines.append(Finding("more-joined", count=len(more), gap=max(join.size for join in more)))
     lost = (mend for mend in mends if mend.kind == "short" and mend.size > MEET)
     return lines + [Finding("edge-too-short", place=mend.place, length=mend.size) for mend in lost]
-
-
-def _more(all_of_them: list, code: str) -> list[Finding]:
-    more = len(all_of_them) - _PLACES
-    return [Finding(code, count=more)] * (more > 0)
 
 
 def _size(account: Account) -> Finding:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from dataclasses import dataclass, field, replace
-from itertools import chain as chained
 
 import shapely
 
@@ -38,9 +37,9 @@ def without_overlaps(chains: Chains, tolerance: float, near: float, styles: Styl
     runs = [contour for contour in chains.contours if not contour.is_closed] + chains.rest
     if not runs:
         return chains, overlaps
-    free = {end for end, count in Counter(chained.from_iterable(map(_ends, runs))).items() if count == 1}
+    free = {end for end, count in Counter(end for run in runs for end in run.ends).items() if count == 1}
     overlaps.whole, kept = _peeled(runs, free, near)
-    ends = [(number, is_last) for number in kept for is_last in (False, True) if _ends(runs[number])[is_last] in free]
+    ends = [(number, is_last) for number in kept for is_last in (False, True) if runs[number].ends[is_last] in free]
     towards = [_towards(kept[number], is_last) for number, is_last in ends]
     on = _on([edge.end for edge in towards], towards, near) if towards else set()
     neighbours = _neighbours({(first, second) for first, second in on if (second, first) in on})
@@ -79,7 +78,7 @@ def _peeled(runs: list[Contour], free: set[XY], near: float) -> tuple[list[tuple
     before = 0
     for number, run in enumerate(runs):
         left = list(range(before, before := before + len(run.edges)))
-        for is_last, end in zip((False, True), _ends(run), strict=True):
+        for is_last, end in zip((False, True), run.ends, strict=True):
             while left and end in free:
                 index = left[-is_last]
                 others = (other for other in neighbours.get(index, ()) if other not in lost)
@@ -108,11 +107,6 @@ def _neighbours(pairs: set[tuple[int, int]]) -> dict[int, list[int]]:
         if first != second:
             result[first].append(second)
     return result
-
-
-def _ends(run: Contour) -> tuple[XY, XY]:
-    """The ends of a run."""
-    return run.edges[0].start, run.edges[-1].end
 
 
 def _towards(run: Contour, is_last: bool) -> Edge:

@@ -61,12 +61,12 @@ def _without_stubs(rest: list[Contour]) -> tuple[list[Contour], list[Contour], l
     the other runs; and the stubs."""
     corners: dict[XY, list[int]] = defaultdict(list)
     for number, run in enumerate(rest):
-        for end in _ends(run):
+        for end in run.ends:
             corners[end].append(number)
     stubs: dict[int, Overrun] = {}
     for corner, numbers in corners.items():
         for number in numbers if len(numbers) > 2 else ():
-            edges, ends = rest[number].edges, _ends(rest[number])
+            edges, ends = rest[number].edges, rest[number].ends
             free = ends[ends[0] == corner]
             shortest = min(_last(rest[other], corner).length for other in numbers if other != number)
             if len(edges) == 1 and len(corners[free]) == 1 and edges[0].length <= min(REACH, _PART * shortest):
@@ -76,16 +76,11 @@ def _without_stubs(rest: list[Contour]) -> tuple[list[Contour], list[Contour], l
     cuts: list[Overrun] = []
     for part in _parts(rest, corners) if stubs else ():
         gone = part & stubs.keys()
-        meeting = Counter(end for number in part - gone for end in _ends(rest[number]))
+        meeting = Counter(end for number in part - gone for end in rest[number].ends)
         is_free = gone and max(meeting.values(), default=3) <= 2
         (freed if is_free else kept).extend(rest[number] for number in sorted(part - gone if is_free else part))
         cuts += [stubs[number] for number in sorted(gone) if is_free]
     return freed, kept if stubs else rest, cuts
-
-
-def _ends(run: Contour) -> tuple[XY, XY]:
-    """Return the ends of a run."""
-    return run.edges[0].start, run.edges[-1].end
 
 
 def _last(run: Contour, corner: XY) -> Edge:
@@ -102,7 +97,7 @@ def _parts(runs: list[Contour], corners: dict[XY, list[int]]) -> list[set[int]]:
             continue
         part, open_ones = {begin}, [begin]
         while open_ones:
-            first, last = _ends(runs[open_ones.pop()])
+            first, last = runs[open_ones.pop()].ends
             more = {*corners[first], *corners[last]} - part
             part |= more
             open_ones += more

@@ -231,10 +231,7 @@ def possible(opened: Sequence[Contour], ends: Sequence[OpenEnd]) -> list[Repair]
         if end.other is not None and end.place != end.other and frozenset((end.place, end.other)) not in none
     }
     bridges = [Repair("bridge", (one, other), (*one, *other), gap) for (one, other), gap in gaps.items()]
-    strays = [
-        Repair("stray", (run.edges[0].start, run.edges[-1].end), _middle(run), sum(edge.length for edge in run.edges))
-        for run in opened
-    ]
+    strays = [Repair("stray", run.ends, _middle(run), sum(edge.length for edge in run.edges)) for run in opened]
     groups = bridges, [corner for corner, _ in corners], strays
     return [repair for group in groups for repair in sorted(group, key=lambda repair: repair.size)]
 
@@ -248,7 +245,7 @@ def _corners(opened: Sequence[Contour]) -> Iterator[tuple[Repair, bool]]:
     """Pairs of free ends that could go to where they cross, each end with the one that is nearest so; whether something
     is cut off for that."""
     runs = [run for run in opened if not run.is_closed]
-    known = Counter(place for run in runs for place in (run.edges[0].start, run.edges[-1].end))
+    known = Counter(place for run in runs for place in run.ends)
     edges = [
         _towards(run.edges[-1] if is_last else run.edges[0], is_last)
         for run in runs

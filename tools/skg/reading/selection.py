@@ -404,7 +404,7 @@ def _axes(contours: list[Contour], related: Relations, fates: Fates) -> set[int]
 
 def _open_ends(contours: list[Contour], edges: list[Edge], tolerance: float) -> list[OpenEnd]:
     """Ends of open contours, each with the nearest other one; `edges`: all of the drawing."""
-    ends = [place for contour in contours for place in (contour.edges[0].start, contour.edges[-1].end)]
+    ends = [place for contour in contours for place in contour.ends]
     if not ends:
         return []
     shortest = _shortest(edges, tolerance)

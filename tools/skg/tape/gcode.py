@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from decimal import Decimal
-from math import atan2, ceil, cos, hypot, pi, sin
+from math import atan2, ceil, hypot, pi
 from typing import TYPE_CHECKING
 
-from skg.tape.block import Tape
+from skg.geometry.plane import polar
+from skg.tape.block import Tape, micrometres
 from skg.tape.dialect import LINE_ENDS, MILL, GcodeDialect
 
 if TYPE_CHECKING:
@@ -116,8 +117,7 @@ class GcodeWriter:
         sweep = sense * (atan2(v, u) - first) % (2 * pi) or 2 * pi
         count = ceil(sweep / (pi / 2) - 1e-9)
         angles = [first + sense * sweep * number / count for number in range(1, count)]
-        places = [(centre[0] + radius * cos(angle), centre[1] + radius * sin(angle)) for angle in angles]
-        return [*map(grid, places), end]
+        return [*(grid(polar(centre, radius, angle)) for angle in angles), end]
 
     def _goal(self, end: Spot) -> list[str]:
         if self.dialect.places == "relative" and self.spot is not None:
@@ -228,6 +228,11 @@ def _cut(writer: GcodeWriter, placed: Placed, feed: str) -> None:
 def grid(place: tuple[float, float]) -> Spot:
     """A place in whole µm."""
     return round(place[0]), round(place[1])
+
+
+def spot(place: tuple[float, float]) -> Spot:
+    """A place in mm in whole µm, rounded as places on a tape are."""
+    return micrometres(place[0]), micrometres(place[1])
 
 
 def minus(end: Spot, start: Spot) -> Spot:
