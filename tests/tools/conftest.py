@@ -57,7 +57,7 @@ def jobs_as_files(monkeypatch: pytest.MonkeyPatch) -> None:
     are planned, so that the tape is the same."""
     plain = steps.plan_drawing
 
-    def planned(job: Job, drawn: steps.DrawnJob) -> list[PlannedContour]:
+    def planned(job: Job, drawn: steps.OpenedDrawing) -> list[PlannedContour]:
         contours = plain(job, drawn)
         if len(contours) <= 200 and crc32(repr(contours).encode()) % EVERY == 0:
             again = load(dump(steps.written(job, drawn)), "again")

@@ -26,7 +26,7 @@ from skg.geometry.plane import XY
 from skg.job.job import Chosen
 from skg.job.wanted import Overrides
 from skg.messages.finding import Phrase
-from skg.pipeline.steps import DrawnJob
+from skg.pipeline.steps import OpenedDrawing
 from skg.tape.block import Block
 
 #: A tape may be this far from the drawing, mm; arcs are handed to shapely as chords this near.
@@ -54,9 +54,9 @@ def circle(x: float, y: float, radius: float) -> Contour:
     return Contour((Edge((x + radius, y), (x + radius, y), (x, y), 2 * pi),), True)
 
 
-def choose(drawn: DrawnJob, number: int, **settings: object) -> Chosen:
+def choose(opened: OpenedDrawing, number: int, **settings: object) -> Chosen:
     """Settings for a contour of a drawing, by its number."""
-    return drawn.known.choose(number, Overrides(**settings))
+    return opened.known.choose(number, Overrides(**settings))
 
 
 def saved(page: Drawing, folder: Path) -> Path:

@@ -44,10 +44,10 @@ def test_a_bridge_closes_an_outline_and_is_kept(tmp_path: Path) -> None:
     assert (refused.value.finding.code, refused.value.place) == ("open-refused", (0.0, 0.0))
     asked = job_files.decoded(job_files.encoded(job(bridges=(GAP,))), "part.job.toml")
     assert asked.read.bridges == (GAP,)
-    drawn = open_drawing(asked, data)
-    (contour,) = drawn.contours
+    opened = open_drawing(asked, data)
+    (contour,) = opened.contours
     assert contour.is_closed and len(contour.edges) == 4, "the bridge and the edge that it goes on are one"
-    cut = cut_drawing(asked, drawn)
+    cut = cut_drawing(asked, opened)
     assert cut.result.checked.off < 0.003
     (joined,) = [finding for finding in cut.findings if finding.code == "ends-joined"]
     assert joined["gap"] == pytest.approx(0.4)
@@ -88,10 +88,10 @@ def test_corners_are_made_and_strays_are_left(tmp_path: Path) -> None:
     stray = max((repair for repair in offered if repair.kind == "stray"), key=lambda each: each.places[0])
     asked = job(corners=tuple(repair.asked for repair in corners), strays=(stray.asked,))
     asked = job_files.decoded(job_files.encoded(asked), "part.job.toml")
-    drawn = open_drawing(asked, data)
-    (contour,) = drawn.contours
+    opened = open_drawing(asked, data)
+    (contour,) = opened.contours
     assert contour.is_closed and len(contour.edges) == 6
-    cut = cut_drawing(asked, drawn)
+    cut = cut_drawing(asked, opened)
     assert cut.result.checked.off < 0.004
     made = [finding for finding in cut.findings if finding.code == "corner-made"]
     sizes = {tuple(round(ordinate, 3) + 0.0 for ordinate in finding.place): finding for finding in made}
@@ -125,10 +125,10 @@ def test_overlapping_lines_beyond_a_corner(tmp_path: Path) -> None:
     (corner,) = [repair for repair in offered if repair.kind == "corner"]
     assert corner.size == pytest.approx(3) and not [repair for repair in offered if repair.kind == "bridge"]
     asked = job(corners=(corner.asked,))
-    drawn = open_drawing(asked, data)
-    (contour,) = drawn.contours
+    opened = open_drawing(asked, data)
+    (contour,) = opened.contours
     assert contour.is_closed and len(contour.edges) == 4
-    codes = [finding.code for finding in cut_drawing(asked, drawn).findings]
+    codes = [finding.code for finding in cut_drawing(asked, opened).findings]
     assert "lines-twice" in codes and "corner-made" in codes
 
 
@@ -137,10 +137,10 @@ def test_a_repair_that_is_not_named_is_refused(tmp_path: Path) -> None:
     data = crossed(tmp_path)
     offered = open_drawing(job(open="cut"), data).reading.report.repairs
     asked = job(open="leave", corners=tuple(repair.asked for repair in offered if repair.kind == "corner"))
-    drawn = open_drawing(asked, data)
-    drawn.reading.begun.mends.clear()
+    opened = open_drawing(asked, data)
+    opened.reading.begun.mends.clear()
     with pytest.raises(UserError) as refused:
-        cut_drawing(asked, drawn)
+        cut_drawing(asked, opened)
     assert refused.value.finding.code == "off-the-file"
 
 

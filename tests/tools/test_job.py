@@ -307,12 +307,12 @@ def test_settings_of_contours(run: Run, tmp_path: Path) -> None:
     """One is left, one is cut first with an offset of its own, one has its start hole and entry: the report says so."""
     path = plate(tmp_path)
     job = Job("part.dxf", setup=Setup(offset=0.1), layers={"plate": Overrides(tab=1.5, passes=(0.05, 0.0))})
-    drawn = open_drawing(job, path.read_bytes())
-    numbers = {tuple(drawn.known.boxes[at, :2].tolist()): at for at in range(4)}
+    opened = open_drawing(job, path.read_bytes())
+    numbers = {tuple(opened.known.boxes[at, :2].tolist()): at for at in range(4)}
     contours = (
-        choose(drawn, numbers[5.0, 8.0], cut=False),
-        choose(drawn, numbers[41.0, 8.0], order=1, offset=0.2),
-        choose(drawn, numbers[23.0, 8.0], start=(29.0, 14.0), entry=(23.0, 15.0)),
+        choose(opened, numbers[5.0, 8.0], cut=False),
+        choose(opened, numbers[41.0, 8.0], order=1, offset=0.2),
+        choose(opened, numbers[23.0, 8.0], start=(29.0, 14.0), entry=(23.0, 15.0)),
     )
     (tmp_path / "part.job.toml").write_bytes(encoded(replace(job, contours=contours)))
     told = run("cut", tmp_path / "part.job.toml", "-o", tmp_path / "a.3b", "--program", "-").stderr
@@ -353,9 +353,9 @@ def test_settings_of_contours(run: Run, tmp_path: Path) -> None:
 
 def test_an_outline_is_not_cut_before_what_lies_in_it(run: Run, tmp_path: Path) -> None:
     job = Job("part.dxf", setup=Setup(offset=0.1))
-    drawn = open_drawing(job, plate(tmp_path).read_bytes())
-    outline = drawn.known.kinds.tolist().index("outline")
-    job = replace(job, contours=(choose(drawn, outline, order=2),))
+    opened = open_drawing(job, plate(tmp_path).read_bytes())
+    outline = opened.known.kinds.tolist().index("outline")
+    job = replace(job, contours=(choose(opened, outline, order=2),))
     (tmp_path / "part.job.toml").write_bytes(encoded(job))
     message = run_failing(run, "cut", tmp_path / "part.job.toml", "-o", tmp_path / "a.3b")
     layers = {name: Phrase("on-layers", layers=(name,)) for name in ("PLATE", "HOLES")}
@@ -372,10 +372,10 @@ def test_a_drawing_that_has_changed(run: Run, tmp_path: Path) -> None:
     """Moved: start holes and entries move with it, which is said; a contour that is gone is refused, and named."""
     path, file = plate(tmp_path), tmp_path / "part.job.toml"
     job = Job("part.dxf", setup=Setup(offset=0.1), starts=((30.0, -5.0),))
-    drawn = open_drawing(job, path.read_bytes())
-    opening = drawn.known.kinds.tolist().index("opening")
-    x, y = drawn.known.boxes[opening, :2].tolist()
-    job = replace(job, contours=(choose(drawn, opening, start=(x + 5, y + 5), entry=(x + 5, y)),))
+    opened = open_drawing(job, path.read_bytes())
+    opening = opened.known.kinds.tolist().index("opening")
+    x, y = opened.known.boxes[opening, :2].tolist()
+    job = replace(job, contours=(choose(opened, opening, start=(x + 5, y + 5), entry=(x + 5, y)),))
     job = written(job, open_drawing(job, path.read_bytes()))
     file.write_bytes(encoded(job))
     before = run("cut", file, "-o", tmp_path / "a.3b").stderr
@@ -428,14 +428,14 @@ def test_a_circle_is_entered_where_that_is_asked(tmp_path: Path, start: XY, entr
     job = Job("part.dxf", setup=Setup(offset=0.1))
     settings = choose(open_drawing(job, data), 0, start=start, entry=entry, side=side)
     job = replace(job, contours=(settings,))
-    drawn = open_drawing(job, data)
+    opened = open_drawing(job, data)
     if start[0] == 33 and entry[0] == 20:
         with pytest.raises(UserError) as failed:
-            plan_drawing(job, drawn)
+            plan_drawing(job, opened)
         finding = failed.value.finding
         assert (finding.code, finding.contour, finding["start"]) == ("entry-behind", 0, start)
         return
-    cut = cut_drawing(job, drawn).result
+    cut = cut_drawing(job, opened).result
     x, y = entry[0] - 20, entry[1] - 20
     reach = 10 / (x * x + y * y) ** 0.5
     assert cut.contours[0].entry == pytest.approx((20 + reach * x, 20 + reach * y), abs=2e-3)
@@ -444,9 +444,9 @@ def test_a_circle_is_entered_where_that_is_asked(tmp_path: Path, start: XY, entr
 def test_a_contour_that_moved_is_said(run: Run, tmp_path: Path) -> None:
     path, file = plate(tmp_path), tmp_path / "part.job.toml"
     job = Job("part.dxf", setup=Setup(offset=0.1))
-    drawn = open_drawing(job, path.read_bytes())
-    outline = drawn.known.kinds.tolist().index("outline")
-    job = replace(job, contours=(choose(drawn, outline, tab=1.0),))
+    opened = open_drawing(job, path.read_bytes())
+    outline = opened.known.kinds.tolist().index("outline")
+    job = replace(job, contours=(choose(opened, outline, tab=1.0),))
     file.write_bytes(encoded(written(job, open_drawing(job, path.read_bytes()))))
     page = drawing()
     polygon([(0, -2), (60, -2), (60, 30), (0, 30)], page, layer="PLATE")
@@ -546,10 +546,10 @@ def test_layers_of_a_job(run: Run, tmp_path: Path) -> None:
 def test_progress_and_wanted(tmp_path: Path) -> None:
     """The page gets the steps of a run and the settings of each contour."""
     job = Job("part.dxf", setup=Setup(offset=0.1), layers={"holes": Overrides(cut=False)})
-    drawn = open_drawing(job, plate(tmp_path).read_bytes())
-    assert [want.cut for want in wanted_of(job, drawn)].count(True) == 1
+    opened = open_drawing(job, plate(tmp_path).read_bytes())
+    assert [want.cut for want in wanted_of(job, opened)].count(True) == 1
     steps: list[str] = []
-    done = cut_drawing(job, drawn, lambda stage, done, of: steps.append(stage))
+    done = cut_drawing(job, opened, lambda stage, done, of: steps.append(stage))
     assert len(done.result.contours) == 1 and steps[0] == "plan"
     assert any(line.severity.value == "care" for line in done.findings) is False
     holes, plates = (finding for finding in done.findings if finding.code == "layer-sum")

@@ -125,28 +125,28 @@ def test_places_of_a_job_are_the_drawings(tmp_path: Path) -> None:
     data = saved(part(), tmp_path).read_bytes()
     place = Place((3.0, 2.0), 90.0, "x", 2.0)
     job = Job("part.dxf", setup=Setup(offset=0.1), place=place)
-    drawn = open_drawing(job, data)
+    opened = open_drawing(job, data)
     circle = next(
         number
         for number in range(3)
-        if len(drawn.contours[number].edges[0].nodes) == 0 and drawn.nesting.depths[number]
+        if len(opened.contours[number].edges[0].nodes) == 0 and opened.nesting.depths[number]
     )
-    outline = drawn.nesting.depths.index(0)
+    outline = opened.nesting.depths.index(0)
     chosen = (
-        choose(drawn, circle, start=(13.0, 10.0), entry=(10.0, 10.0)),
-        choose(drawn, outline, tab=2.0, tabs=((23.0, 2.0), (3.0, 11.0))),
+        choose(opened, circle, start=(13.0, 10.0), entry=(10.0, 10.0)),
+        choose(opened, outline, tab=2.0, tabs=((23.0, 2.0), (3.0, 11.0))),
     )
     job = replace(job, contours=chosen)
-    drawn = open_drawing(job, data)
-    assert decoded(encoded(written(job, drawn)), "job").place == place
-    contours = {planned.number: planned for planned in plan_drawing(job, drawn)}
+    opened = open_drawing(job, data)
+    assert decoded(encoded(written(job, opened)), "job").place == place
+    contours = {planned.number: planned for planned in plan_drawing(job, opened)}
     # (mirrored and turned by a quarter, x and y change places, with their signs: 2 · (2 − y), 2 · (3 − x))
     assert contours[circle].start == pytest.approx((2 * (2 - 10), 2 * (3 - 13)))
     assert contours[circle].entry == pytest.approx((2 * (2 - 10), 2 * (3 - 10)))
     middles = [tab[0].at(0.5) for _, tab in contours[outline].spans]
     assert sorted(middles) == [pytest.approx((-18, 0), abs=0.01), pytest.approx((0, -40), abs=0.01)]
-    assert cut_drawing(job, drawn).result.checked.off < 0.003
-    wide = replace(job, contours=(choose(drawn, circle, start=(13.0, 20.0)),))
+    assert cut_drawing(job, opened).result.checked.off < 0.003
+    wide = replace(job, contours=(choose(opened, circle, start=(13.0, 20.0)),))
     with pytest.raises(UserError) as failed:
         plan_drawing(wide, open_drawing(wide, data))
     assert failed.value.finding.code == "hole-inside" or failed.value.finding.code == "hole-outside"

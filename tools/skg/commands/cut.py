@@ -430,8 +430,8 @@ def _cut(
     from skg.pipeline.steps import cut_all, open_drawing, written
 
     path = inputs[0]
-    drawn = open_drawing(job, read_bytes(path), path)
-    cuts = [(cut, files.of(cut.member, job.tape.short_name)) for cut in cut_all(job, drawn)]
+    opened = open_drawing(job, read_bytes(path), path)
+    cuts = [(cut, files.of(cut.member, job.tape.short_name)) for cut in cut_all(job, opened)]
     if len(cuts) > 1:
         # (the job is that of both)
         names = [name for _, own in cuts for name in own[:4] if name]
@@ -454,7 +454,7 @@ def _cut(
         if own.sheet:
             _write_sheet(job, cut, path, own)
     if files.job:
-        write_bytes(files.job, job_files.encoded(written(job, drawn)))
+        write_bytes(files.job, job_files.encoded(written(job, opened)))
     # (last: no tape where something else, or another tape, could not be written)
     with ExitStack() as stack:
         for stream, made in [(stack.enter_context(binary_output(name)), made) for name, made in tapes]:

@@ -1,8 +1,8 @@
 """A job, step by step: its drawing is read, its contours are found in it, planned, and cut.
 
-    drawn = open_drawing(job, data)
-    plan_drawing(job, drawn)
-    result = cut_drawing(job, drawn)
+    opened = open_drawing(job, data)
+    plan_drawing(job, opened)
+    result = cut_drawing(job, opened)
 
 The command line and the page make a `Job` and call these.
 """
@@ -43,7 +43,7 @@ from skg.reading.selection import SMALL, TOO_SHORT, UNWANTED, WITHIN
 
 
 @dataclass(frozen=True)
-class DrawnJob:
+class OpenedDrawing:
     """A job's drawing, read, with what lies in what, and where the contours that the job has settings for are.
 
     `name`: what messages call it. `member`: which of a pair is cut of it, see `skg.pipeline.pairing`; "": the part.
@@ -73,7 +73,7 @@ class DrawnJob:
         return (self.name,) if by == (0.0, 0.0) else (self.name, Phrase("moved-by", by=by))
 
     @property
-    def whole(self) -> DrawnJob:
+    def whole(self) -> OpenedDrawing:
         """The drawing as the part, of which it may be a member."""
         return replace(self, member="") if self.member else self
 
@@ -162,13 +162,13 @@ class CutDrawing:
     member: str = ""
 
 
-def open_drawing(job: Job, data: bytes, name: str = "") -> DrawnJob:
+def open_drawing(job: Job, data: bytes, name: str = "") -> OpenedDrawing:
     """Read a job's drawing and find the contours that it has settings for. `name`: what messages call the drawing."""
     name = name or job.drawing
     reading = read(data, name, read_options_of(job))
     nesting = Nesting.of(reading.contours, reading.others, reading.opened)
     known = Known(reading.contours, [nesting.kind(number) for number in range(len(reading.contours))])
-    return DrawnJob(name, data, reading, nesting, known, known.find(job.contours, job.box))
+    return OpenedDrawing(name, data, reading, nesting, known, known.find(job.contours, job.box))
 
 
 def read_options_of(job: Job) -> ReadOptions:
@@ -178,81 +178,81 @@ def read_options_of(job: Job) -> ReadOptions:
     return replace(job.read, open=job.read.open or ("refuse" if job.is_beside else "cut"), fit_tolerance=fit)
 
 
-def wanted_of(job: Job, drawn: DrawnJob) -> list[CutSettings]:
+def wanted_of(job: Job, opened: OpenedDrawing) -> list[CutSettings]:
     """Settings for each contour; places are where the drawing is now."""
-    layers = {layers: job.of(layers) for layers in {contour.layers for contour in drawn.contours}}
-    wanted = [layers[contour.layers] for contour in drawn.contours]
-    for number, chosen in drawn.chosen(job).items():
-        wanted[number] = job.of(drawn.contours[number].layers, chosen)
-    return pairing.pair_wanted(wanted, drawn.nesting, drawn.member) if drawn.member else wanted
+    layers = {layers: job.of(layers) for layers in {contour.layers for contour in opened.contours}}
+    wanted = [layers[contour.layers] for contour in opened.contours]
+    for number, chosen in opened.chosen(job).items():
+        wanted[number] = job.of(opened.contours[number].layers, chosen)
+    return pairing.pair_wanted(wanted, opened.nesting, opened.member) if opened.member else wanted
 
 
-def members_of(job: Job, drawn: DrawnJob) -> list[DrawnJob]:
+def members_of(job: Job, opened: OpenedDrawing) -> list[OpenedDrawing]:
     """The drawing as the part, or once as the punch and once as the die."""
-    with placing.told_as_drawn(Placement(), *drawn.source):
-        wanted = wanted_of(job, drawn)
-        members = pairing.members(wanted, drawn.nesting)
-    return [_member(member, wanted, drawn) for member in members] if any(members) else [drawn]
+    with placing.told_as_drawn(Placement(), *opened.source):
+        wanted = wanted_of(job, opened)
+        members = pairing.members(wanted, opened.nesting)
+    return [_member(member, wanted, opened) for member in members] if any(members) else [opened]
 
 
-def _member(member: str, wanted: list[CutSettings], drawn: DrawnJob) -> DrawnJob:
+def _member(member: str, wanted: list[CutSettings], opened: OpenedDrawing) -> OpenedDrawing:
     """The drawing as one of a pair. `wanted`: settings for the part."""
     try:
-        with placing.told_as_drawn(Placement(), *drawn.source):
-            sized = pairing.sized(wanted, drawn.nesting, member)
+        with placing.told_as_drawn(Placement(), *opened.source):
+            sized = pairing.sized(wanted, opened.nesting, member)
     except UserError as error:
         raise error.within(pairing.named(member)) from None
-    return replace(drawn, member=member, sized=sized, _placed={})
+    return replace(opened, member=member, sized=sized, _placed={})
 
 
-def plan_drawing(job: Job, drawn: DrawnJob) -> list[PlannedContour]:
+def plan_drawing(job: Job, opened: OpenedDrawing) -> list[PlannedContour]:
     """The contours in the order in which they are cut. A contour that is lost, or that cannot be planned, is a
     `UserError`."""
-    refuse_lost(job, drawn)
-    with placing.told_as_drawn(Placement(), *drawn.source):
-        wanted = wanted_of(job, drawn)
-    return plan_placed(job, drawn, wanted)
+    refuse_lost(job, opened)
+    with placing.told_as_drawn(Placement(), *opened.source):
+        wanted = wanted_of(job, opened)
+    return plan_placed(job, opened, wanted)
 
 
 def plan_placed(
     job: Job,
-    drawn: DrawnJob,
+    opened: OpenedDrawing,
     wanted: list[CutSettings],
     before: dict[int, tuple[Asked, PlannedContour]] | None = None,
 ) -> list[PlannedContour]:
     """Plan contours on the machine; see `plan_nested`. `wanted`: settings for each, with places of the drawing."""
-    with placing.told_as_drawn(Placement(), *drawn.source):
-        placement, nesting = drawn.placement(job), drawn.placed(job)
+    with placing.told_as_drawn(Placement(), *opened.source):
+        placement, nesting = opened.placement(job), opened.placed(job)
     on_machine = [
         placing.placed_wanted(want, contour.is_closed, placement)
-        for contour, want in zip(drawn.contours, wanted, strict=True)
+        for contour, want in zip(opened.contours, wanted, strict=True)
     ]
-    starts = [placement.place(start) for start in starts_of(job, drawn)]
-    with placing.told_as_drawn(placement, *drawn.source):
+    starts = [placement.place(start) for start in starts_of(job, opened)]
+    with placing.told_as_drawn(placement, *opened.source):
         return plan_nested(nesting, starts, on_machine, before)
 
 
-def starts_of(job: Job, drawn: DrawnJob) -> list[XY]:
+def starts_of(job: Job, opened: OpenedDrawing) -> list[XY]:
     """The start holes, where the drawing is now."""
-    starts = [shifted(start, drawn.matches.shift) for start in job.starts] or drawn.reading.starts
-    if not drawn.member:
+    starts = [shifted(start, opened.matches.shift) for start in job.starts] or opened.reading.starts
+    if not opened.member:
         return starts
-    return pairing.pair_starts(starts, wanted_of(job, drawn.whole), drawn.nesting, drawn.member)
+    return pairing.pair_starts(starts, wanted_of(job, opened.whole), opened.nesting, opened.member)
 
 
-def refuse_lost(job: Job, drawn: DrawnJob) -> None:
+def refuse_lost(job: Job, opened: OpenedDrawing) -> None:
     """Refuse a job with settings for a contour that is not there."""
-    lost = drawn.matches.lost
+    lost = opened.matches.lost
     for index in lost:
         more = Phrase("nor-others", count=len(lost) - 1) if len(lost) > 1 else None
         finding = Finding("contour-lost", index=index + 1, name=job.contours[index].name, more=more)
-        raise UserError(finding.within(*drawn.source))
+        raise UserError(finding.within(*opened.source))
 
 
-def cut_all(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> list[CutDrawing]:
+def cut_all(job: Job, opened: OpenedDrawing, progress: Progress = in_silence) -> list[CutDrawing]:
     """Make the tape, or that of a punch and that of its die; nothing is returned where one of both is refused."""
     cuts = []
-    for each in members_of(job, drawn):
+    for each in members_of(job, opened):
         try:
             cuts.append(cut_drawing(job, each, progress))
         except UserError as error:
@@ -260,25 +260,25 @@ def cut_all(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> list[
     return cuts
 
 
-def cut_drawing(job: Job, drawn: DrawnJob, progress: Progress = in_silence) -> CutDrawing:
+def cut_drawing(job: Job, opened: OpenedDrawing, progress: Progress = in_silence) -> CutDrawing:
     """Make the tape and check it; nothing is returned that is wrong."""
-    progress("plan", 0, len(drawn.contours))
-    contours = plan_drawing(job, drawn)
-    placement = drawn.placement(job)
-    drawn.placed(job).release()
-    with placing.told_as_drawn(placement, *drawn.source):
-        pattern = drawn.pattern(job)
+    progress("plan", 0, len(opened.contours))
+    contours = plan_drawing(job, opened)
+    placement = opened.placement(job)
+    opened.placed(job).release()
+    with placing.told_as_drawn(placement, *opened.source):
+        pattern = opened.pattern(job)
         result = make(contours, job, progress, pattern)
-    skipped = {number: UNWANTED for number, want in enumerate(wanted_of(job, drawn)) if not want.cut}
-    if drawn.member:
-        others = enumerate(wanted_of(job, drawn.whole))
+    skipped = {number: UNWANTED for number, want in enumerate(wanted_of(job, opened)) if not want.cut}
+    if opened.member:
+        others = enumerate(wanted_of(job, opened.whole))
         skipped |= {number: pairing.OTHER for number, want in others if want.cut and number in skipped}
     skipped |= {contour.number: _reason(contour) for contour in result.skipped}
-    account = drawn.reading.account(skipped) if skipped else drawn.reading.report
-    result = _beside_file(result, job, drawn, account, placement)
+    account = opened.reading.account(skipped) if skipped else opened.reading.report
+    result = _beside_file(result, job, opened, account, placement)
     cost = Cost.of(result, job.price)
-    report = [*_findings(job, drawn, account, result, placement, pattern), *cost.findings()]
-    return CutDrawing(result, account, cost, report, placement, drawn.member)
+    report = [*_findings(job, opened, account, result, placement, pattern), *cost.findings()]
+    return CutDrawing(result, account, cost, report, placement, opened.member)
 
 
 def _reason(contour: Skipped) -> Phrase:
@@ -288,52 +288,54 @@ def _reason(contour: Skipped) -> Phrase:
     return TOO_SHORT if contour.why.code == "too-short-for-tab" else SMALL
 
 
-def _beside_file(result: CutResult, job: Job, drawn: DrawnJob, account: Account, placement: Placement) -> CutResult:
+def _beside_file(
+    result: CutResult, job: Job, opened: OpenedDrawing, account: Account, placement: Placement
+) -> CutResult:
     """The tape compared with the lines of the file, too: it is as far off as its contours are at most, and these. Where
     these differ and no line of the report names the place, a `UserError`."""
     scale = job.place.scale
     named = [Named(mend.place, mend.size) for mend in account.mends]
-    copies = drawn.copies(job)
+    copies = opened.copies(job)
     count = len(result.contours) // copies.count
     # (those of the first copy are where the drawing has them)
     for planned in result.contours[:count]:
         trims = (*planned.remarks.loops, *planned.remarks.whiskers)
         named += [Named(placement.back.place(trim.place), trim.length / scale) for trim in trims]
-    wanted = wanted_of(job, drawn.whole) if drawn.sized else []
+    wanted = wanted_of(job, opened.whole) if opened.sized else []
     worst = 0.0
     for number in range(copies.count):
         copy = result.contours[number * count : (number + 1) * count]
         offs, nominal = [], []
         contours = as_drawn([planned.contour for planned in copy], job.place, placement.origin, copies, number)
         for own, contour in zip((planned.number for planned in copy), contours, strict=True):
-            if own in drawn.sized:
-                growth = pairing.growth(wanted[own], drawn.member)
-                offs.append(off_size(contour, drawn.contours[own], growth))
-            nominal.append(drawn.contours[own] if own in drawn.sized else contour)
-        offs.append(off_drawn(nominal, drawn.reading.nominal, account.whole, named))
+            if own in opened.sized:
+                growth = pairing.growth(wanted[own], opened.member)
+                offs.append(off_size(contour, opened.contours[own], growth))
+            nominal.append(opened.contours[own] if own in opened.sized else contour)
+        offs.append(off_drawn(nominal, opened.reading.nominal, account.whole, named))
         off, place = max(offs)
         if off > NEAR:
-            raise UserError(Finding("off-the-file", place=place, off=1000 * off).within(*drawn.source))
+            raise UserError(Finding("off-the-file", place=place, off=1000 * off).within(*opened.source))
         worst = max(worst, off)
     return replace(result, checked=replace(result.checked, off=result.checked.off + scale * worst))
 
 
 def _findings(
-    job: Job, drawn: DrawnJob, account: Account, result: CutResult, placement: Placement, pattern: Pattern | None
+    job: Job, opened: OpenedDrawing, account: Account, result: CutResult, placement: Placement, pattern: Pattern | None
 ) -> list[Finding]:
     """The report."""
-    report = [*account.report(), *_matched(job, drawn)]
+    report = [*account.report(), *_matched(job, opened)]
     report += placing.placed_findings(job.place, placement, pattern, account.size)
     # (start holes are drilled on the machine)
     report += [
         finding if finding.code == "order-of-cutting" else placing.as_drawn(finding, placement)
         for finding in findings(result, job.setup.distance)
     ]
-    wanted = wanted_of(job, drawn)
+    wanted = wanted_of(job, opened)
     if stock := max((want.passes[-1] for want in wanted if want.cut), default=0.0):
         report.append(Finding("last-pass-leaves", stock=stock))
     # (a contour with a tab of its own is what it is)
-    own = {number for number, chosen in drawn.chosen(job).items() if chosen.overrides.tab is not None}
+    own = {number for number, chosen in opened.chosen(job).items() if chosen.overrides.tab is not None}
     others = [want for number, want in enumerate(wanted) if want.cut and number not in own]
     for is_asked, frees in (
         (any(want.tab for want in others), "part"),
@@ -345,46 +347,46 @@ def _findings(
         from skg.checking import split_parts
 
         report += [placing.as_drawn(finding, placement) for finding in split_parts.findings(result.contours)]
-    if not drawn.member:
+    if not opened.member:
         return report
-    return pairing.pair_findings(wanted_of(job, drawn.whole), drawn.nesting, drawn.member, report)
+    return pairing.pair_findings(wanted_of(job, opened.whole), opened.nesting, opened.member, report)
 
 
-def _matched(job: Job, drawn: DrawnJob) -> list[Finding]:
+def _matched(job: Job, opened: OpenedDrawing) -> list[Finding]:
     """Tell how contours were found in a drawing that has changed."""
-    if not job.sha256 or job.sha256 == drawn.sha256:
+    if not job.sha256 or job.sha256 == opened.sha256:
         return []
-    by = drawn.matches.shift
+    by = opened.matches.shift
     is_moved = by != (0.0, 0.0)
     changed = Finding("drawing-moved", drawing=job.drawing, by=by) if is_moved else None
     report = [changed or Finding("drawing-changed", drawing=job.drawing)]
-    for chosen, match in zip(job.contours, drawn.matches.found, strict=True):
+    for chosen, match in zip(job.contours, opened.matches.found, strict=True):
         if match.is_doubtful:
             assert match.number is not None, "what is lost is not doubtful"
-            about: dict[str, Any] = {"contour": match.number, "place": drawn.contours[match.number].edges[0].start}
+            about: dict[str, Any] = {"contour": match.number, "place": opened.contours[match.number].edges[0].start}
             report.append(Finding("matched-far", name=chosen.name, moved=match.moved, **about))
     return report
 
 
-def written(job: Job, drawn: DrawnJob) -> Job:
+def written(job: Job, opened: OpenedDrawing) -> Job:
     """The job as a file has it: with the drawing's sum and box, its contours as they are now (but those that are
     lost)."""
-    chosen = drawn.chosen(job)
+    chosen = opened.chosen(job)
     contours = tuple(
-        contour if match.number is None else drawn.known.choose(match.number, chosen[match.number].overrides)
-        for contour, match in zip(job.contours, drawn.matches.found, strict=True)
+        contour if match.number is None else opened.known.choose(match.number, chosen[match.number].overrides)
+        for contour, match in zip(job.contours, opened.matches.found, strict=True)
     )
-    left, low, right, top = (round(bound, 6) + 0.0 for bound in drawn.known.box)
-    starts = tuple(shifted(start, drawn.matches.shift) for start in job.starts)
+    left, low, right, top = (round(bound, 6) + 0.0 for bound in opened.known.box)
+    starts = tuple(shifted(start, opened.matches.shift) for start in job.starts)
     place = job.place
     if isinstance(place.origin, tuple):
-        place = replace(place, origin=shifted(place.origin, drawn.matches.shift))
+        place = replace(place, origin=shifted(place.origin, opened.matches.shift))
     return replace(
         job,
-        sha256=drawn.sha256,
+        sha256=opened.sha256,
         box=(left, low, right, top),
         place=place,
-        copies=drawn.copies(job),
+        copies=opened.copies(job),
         starts=starts,
         contours=contours,
     )

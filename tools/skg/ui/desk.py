@@ -24,7 +24,7 @@ from skg.pipeline.pairing import named
 from skg.pipeline.placing import as_drawn, told_as_drawn
 from skg.pipeline.steps import (
     CutDrawing,
-    DrawnJob,
+    OpenedDrawing,
     cut_all,
     open_drawing,
     plan_placed,
@@ -57,9 +57,9 @@ class Desk:
         self._progress, self._early = progress, early
         self._data = b""
         self._job: Job | None = None
-        self._drawn: DrawnJob | None = None
+        self._opened: OpenedDrawing | None = None
         #: The drawing as it could be read last, which the page still shows.
-        self._seen: DrawnJob | None = None
+        self._seen: OpenedDrawing | None = None
         self._planned: dict[int, PlannedContour] = {}
         #: The drawing's plan before, and its form for the page.
         self._before: dict[int, tuple[Asked, PlannedContour]] = {}
@@ -101,17 +101,17 @@ class Desk:
         job = job_files.from_data(data, _PAGE)
         if self._job is None or job.drawing != self._job.drawing:
             raise UserError(Finding("page-not-open", drawing=job.drawing[:100]))
-        if self._drawn is None or not self._drawn.reading.is_same(read_options_of(self._job), read_options_of(job)):
+        if self._opened is None or not self._opened.reading.is_same(read_options_of(self._job), read_options_of(job)):
             return self._read(job)
         self._job = job
-        self._drawn = replace(self._drawn, matches=self._drawn.known.find(job.contours, job.box))
+        self._opened = replace(self._opened, matches=self._opened.known.find(job.contours, job.box))
         return {"drawing": None} | self._state()
 
     def ways(self, numbers: list[int]) -> bytes:
         """The ways of the wire along some contours, as JSON."""
-        drawn = self._present()
+        opened = self._present()
         for number in numbers:
-            if not 0 <= number < len(drawn.contours):
+            if not 0 <= number < len(opened.contours):
                 raise UserError(Finding("page-no-contour", number=number))
         paths = {
             str(number): shown.ways(self._planned[number], self._placement)
@@ -166,19 +166,19 @@ class Desk:
             raise self._why
         return self._job
 
-    def _present(self) -> DrawnJob:
+    def _present(self) -> OpenedDrawing:
         """The drawing; a `UserError` where there is none."""
-        if self._drawn is None:
+        if self._opened is None:
             raise self._why
-        return self._drawn
+        return self._opened
 
     def _read(self, job: Job, is_known: bool = True) -> dict[str, Any]:
         """Read the drawing. One that cannot be read is told of with the job that asked for it; of one that is not known
         yet, and large, the drawing is told of before its plan."""
-        self._job, self._drawn, self._planned, self._cut = job, None, {}, None
+        self._job, self._opened, self._planned, self._cut = job, None, {}, None
         self._before, self._plans = {}, shown.Plans()
         try:
-            self._drawn = open_drawing(job, self._data)
+            self._opened = open_drawing(job, self._data)
         except UserError as error:
             self._why = error
             drawing: dict[str, Any] = {}
@@ -194,17 +194,17 @@ class Desk:
                 error.finding = as_drawn(error.finding, Placement(origin=self._seen.reading.noted.by))
             state: dict[str, Any] = {"name": job.drawing, "job": job_files.to_data(job), "matches": matches}
             return {"drawing": drawing, "state": state | {"plan": None, "error": told(error)}}
-        self._job = written(job, self._drawn)
-        for chosen, match in zip(self._job.contours, self._drawn.matches.found, strict=True):
+        self._job = written(job, self._opened)
+        for chosen, match in zip(self._job.contours, self._opened.matches.found, strict=True):
             if match.is_doubtful:
                 self._doubts[replace(chosen, overrides=Overrides())] = match.moved
-        self._drawn = replace(self._drawn, matches=self._drawn.known.find(self._job.contours, self._job.box))
-        self._seen = self._drawn
-        drawing = shown.drawing(self._drawn)
-        if is_known or len(self._drawn.contours) < _MANY:
+        self._opened = replace(self._opened, matches=self._opened.known.find(self._job.contours, self._job.box))
+        self._seen = self._opened
+        drawing = shown.drawing(self._opened)
+        if is_known or len(self._opened.contours) < _MANY:
             return {"drawing": drawing} | self._state()
         # (planned it will be some seconds later)
-        matches = self._matches(self._drawn.matches.found)
+        matches = self._matches(self._opened.matches.found)
         state = {"name": job.drawing, "job": job_files.to_data(self._job), "matches": matches, "plan": None}
         self._early({"drawing": drawing, "state": state})
         return {"drawing": EARLY} | self._state()
@@ -225,25 +225,25 @@ class Desk:
             matches.append({"chosen": index, "id": match.number, "moved": moved, "confirm": doubt is not None})
         return matches
 
-    def _plan(self, asked: Job, drawn: DrawnJob) -> tuple[bytes, bytes]:
+    def _plan(self, asked: Job, opened: OpenedDrawing) -> tuple[bytes, bytes]:
         """The plan: of all contours that can be planned, with what is wrong with the others; and as it has changed."""
-        wanted = wanted_of(asked, drawn)
+        wanted = wanted_of(asked, opened)
         tried = list(wanted)
         contours: list[PlannedContour] = []
         errors: list[UserError] = []
         with _noted(errors):
-            refuse_lost(asked, drawn)
-        job, placement, nesting = asked, Placement(), drawn.nesting
-        with _noted(errors), told_as_drawn(Placement(), *drawn.source):
-            placement, nesting = drawn.placement(job), drawn.placed(job)
-        if nesting is drawn.nesting:
+            refuse_lost(asked, opened)
+        job, placement, nesting = asked, Placement(), opened.nesting
+        with _noted(errors), told_as_drawn(Placement(), *opened.source):
+            placement, nesting = opened.placement(job), opened.placed(job)
+        if nesting is opened.nesting:
             # (what cannot be placed is shown as it is drawn)
             job, placement = replace(job, place=Place(), copies=Copies()), Placement()
         if nesting is not self._nesting:
             self._placement, self._nesting, self._before, self._plans = placement, nesting, {}, shown.Plans()
         while not contours and len(errors) < _MOST_ERRORS:
             with _noted(errors):
-                contours = plan_placed(job, drawn, tried, self._before)
+                contours = plan_placed(job, opened, tried, self._before)
                 break
             number = errors[-1].contour
             if number is None:
@@ -252,7 +252,7 @@ class Desk:
             free = replace(tried[number], start=None, entry=None, order=None)
             tried[number] = free if free != tried[number] else replace(free, cut=False)
         self._planned = {planned.number: planned for planned in contours}
-        pattern = drawn.pattern(job)
+        pattern = opened.pattern(job)
         return self._plans.written(contours, wanted, errors, placement, pattern)
 
 

@@ -27,7 +27,7 @@ from skg.messages.render import Medium, Speech, text
 from skg.messages.severity import Severity
 from skg.pipeline.pairing import named
 from skg.pipeline.placing import as_drawn
-from skg.pipeline.steps import CutDrawing, DrawnJob
+from skg.pipeline.steps import CutDrawing, OpenedDrawing
 from skg.planning import walls
 from skg.planning.copies import Pattern
 from skg.planning.nesting import findings
@@ -89,11 +89,11 @@ def line(entry: Finding, member: str = "") -> dict[str, Any]:
     return told_line | ({"key": crc32(repr(entry).encode())} if told_line["care"] else {})
 
 
-def drawing(drawn: DrawnJob) -> dict[str, Any]:
+def drawing(opened: OpenedDrawing) -> dict[str, Any]:
     """The drawing."""
-    report = drawn.reading.report
+    report = opened.reading.report
     on = defaultdict(list)
-    for number, contour in enumerate(drawn.contours):
+    for number, contour in enumerate(opened.contours):
         for layer in dict.fromkeys(contour.layers):
             on[layer].append(number)
     layers = [
@@ -106,15 +106,15 @@ def drawing(drawn: DrawnJob) -> dict[str, Any]:
         for layer in report.layers
     ]
     return {
-        "sha256": drawn.sha256,
+        "sha256": opened.sha256,
         "size": place(report.size),
         "low": place(report.low),
         "units": report.units,
         "units_from": said(report.told),
         "layers": layers,
-        "contours": in_json([_contour(drawn, *numbered) for numbered in enumerate(drawn.known.choose_all())]),
-        "starts": [place(start) for start in drawn.reading.starts],
-        "left": in_json(_left(drawn)),
+        "contours": in_json([_contour(opened, *numbered) for numbered in enumerate(opened.known.choose_all())]),
+        "starts": [place(start) for start in opened.reading.starts],
+        "left": in_json(_left(opened)),
         "repairs": _repairs(report),
         "report": [line(entry) for entry in report.report()],
     }
@@ -132,9 +132,9 @@ def _repairs(report: Account) -> list[dict[str, Any]]:
     return repairs
 
 
-def _left(drawn: DrawnJob) -> dict[str, Any]:
+def _left(opened: OpenedDrawing) -> dict[str, Any]:
     """What is not cut: edges of entities that are not cut whole, and texts."""
-    reading = drawn.reading
+    reading = opened.reading
     left = [edge for edge in reading.nominal if edge.entity not in reading.report.whole]
     return {
         "edges": edges([*left, *reading.unasked, *islice(reading.noted.every(), _MOST_NOTED)]),
@@ -154,15 +154,15 @@ def _plain(text_of_file: str) -> str:
     return "\n".join(map(visible, fast_plain_mtext(plain_text(text_of_file), split=True)))
 
 
-def _contour(drawn: DrawnJob, number: int, chosen: Chosen) -> dict[str, Any]:
-    contour = drawn.contours[number]
+def _contour(opened: OpenedDrawing, number: int, chosen: Chosen) -> dict[str, Any]:
+    contour = opened.contours[number]
     return {
         "id": number,
         "name": f"contour {number + 1}",
         "layer": chosen.layer,
         "layers": list(dict.fromkeys(contour.layers)),
         "kind": chosen.kind,
-        "depth": drawn.nesting.depths[number],
+        "depth": opened.nesting.depths[number],
         "closed": contour.is_closed,
         "at": list(chosen.place),
         "size": list(chosen.size),
