@@ -24,7 +24,7 @@ import sys
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, NoReturn
 
 ASM = Path(__file__).resolve().parent
 sys.path.insert(0, str(ASM))  # for tests, which load this file from elsewhere
@@ -66,7 +66,7 @@ RESTARTS = {
 RESTART = re.compile(rf"(\w+:)?\s+DB\s+({'|'.join(RESTARTS)})\b(?:,([^;]*\S))?\s*(;.*)?$")
 
 
-def fail(message: str) -> None:
+def fail(message: str) -> NoReturn:
     """Print one line and end with exit code 1."""
     print(f"build: {message}", file=sys.stderr)
     sys.exit(1)
@@ -138,15 +138,23 @@ def number(text: str) -> int:
 
 
 def sources(image: Image) -> dict[str, str]:
-    """The text of every source file of an image, by name, in their order; words.asm is made here."""
-    try:
-        texts = {
-            file: words.source(image.words) if file == "words" else (ASM / f"{place(file)}.asm").read_text()
-            for file in image.files()
-        }
-    except ValueError as fault:
-        fail(str(fault))
+    """The text of every source file of an image, by name, in their order; words.asm is made here.
+
+    ValueError when a file is not there, or something is wrong with words.txt.
+    """
+    texts = {
+        file: words.source(image.words) if file == "words" else (ASM / f"{place(file)}.asm").read_text()
+        for file in image.files()
+    }
     return texts if image.restarts else {file: with_calls(file, text) for file, text in texts.items()}
+
+
+def sources_of(name: str) -> dict[str, str]:
+    """Likewise of an image of IMAGES; what is wrong ends the build."""
+    try:
+        return sources(IMAGES[name])
+    except ValueError as fault:
+        fail(f"{name}: {fault}")
 
 
 def with_calls(file: str, text: str) -> str:
@@ -291,7 +299,7 @@ def intel_hex(image: bytes, origin: int) -> str:
 
 def build(*names: str) -> dict[str, Built]:
     """Images of IMAGES by name, of which the bytes are printed; ends the build when something is wrong with one."""
-    images = {name: sources(IMAGES[name]) for name in names}
+    images = {name: sources_of(name) for name in names}
     for texts in images.values():
         check_words(texts)
     with tempfile.TemporaryDirectory() as work:

@@ -261,10 +261,10 @@ def silent_entries(rooms: dict[str, Room]) -> list[str]:
 
 def every() -> dict[str, dict[str, Room]]:
     """The rooms of each image, by its name."""
-    from build import sources
+    from build import sources_of
     from images import IMAGES
 
-    return {name: read(sources(image)) for name, image in IMAGES.items()}
+    return {name: read(sources_of(name)) for name in IMAGES}
 
 
 def merged(images: dict[str, dict[str, Room]]) -> dict[str, Room]:

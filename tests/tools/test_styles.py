@@ -18,6 +18,7 @@ from skg.messages.finding import Phrase
 from skg.tape import Block, Stop, Tape
 from skg.tape.styles import STYLES, read_any, to_style
 
+ROOT = Path(__file__).parents[2]
 BLOCKS = [
     "B9900B0B9900GXL3",
     "B0B70100B70100GYL2",
@@ -27,7 +28,6 @@ BLOCKS = [
 ]
 
 #: The CAD package's tape of tape-3b.md in other styles, and what is noted.
-ROOT = Path(__file__).parents[2]
 SAME = {
     "published": (
         "B 9900B 0B 9900 GX L3 B 0B 70100B 70100 GY L2 B 55000B 0B 55000 GX L3 B 50100B 100B 100000 GY NR1"
