@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 import subprocess
-import sys
 from inspect import cleandoc
 from pathlib import Path
 
@@ -14,6 +13,7 @@ import polib
 import prose
 import pytest
 from prose import ENGLISH
+from toolhelp import SKG
 
 from skg.cli import COMMANDS, cli
 from skg.messages.finding import Finding, Phrase
@@ -21,7 +21,6 @@ from skg.messages.finding import Finding, Phrase
 pytestmark = pytest.mark.wording
 
 ROOT = Path(__file__).parents[2]
-SKG = Path(sys.executable).with_name("skg")
 MESSAGES = ROOT / "tools" / "skg" / "messages"
 HAN = re.compile(r"[\u4e00-\u9fff]")
 #: Fields, code, and options with their values are names.

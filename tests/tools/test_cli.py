@@ -11,11 +11,11 @@ from pathlib import Path
 
 import pytest
 from facthelp import says
+from toolhelp import SKG
 
 from skg.messages.finding import Finding, Phrase
 
 ROOT = Path(__file__).parents[2]
-SKG = Path(sys.executable).with_name("skg")
 TAPE, PART = "examples/fit-gear.3b", "examples/fit-gear.skg"
 #: A run of every command that writes to its standard output.
 COMMANDS = {

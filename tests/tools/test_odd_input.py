@@ -4,20 +4,17 @@ from __future__ import annotations
 
 import random
 import subprocess
-import sys
 from pathlib import Path
 
 import click
 import pytest
 from click.testing import CliRunner
 from facthelp import each_says, says
-from toolhelp import CAD_TAPE, ROOT
+from toolhelp import CAD_TAPE, ROOT, SKG
 
 from skg.cli import COMMANDS, cli
 from skg.errors import UserError
 from skg.messages.finding import Phrase
-
-SKG = Path(sys.executable).with_name("skg")
 
 #: How each command takes a file, `-o out` where it writes one; what it can read among `FILES`.
 READERS = {

@@ -17,13 +17,12 @@ from pathlib import Path
 
 import pytest
 from facthelp import says
-from toolhelp import CAD_TAPE, PATIENCE
+from toolhelp import CAD_TAPE, PATIENCE, SKG
 
 from skg.board.recorder import Listing, Recorder, wrong_with
 from skg.errors import UserError
 
 ROOT = Path(__file__).parents[2]
-SKG = Path(sys.executable).with_name("skg")
 #: What the board types and punches: the paper's numbers stand before DC2, behind DC4 comes the line's end.
 BLOCKS = [text.encode() for text in CAD_TAPE.decode().split()[:-1]]
 

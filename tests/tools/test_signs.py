@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import re
 import subprocess
-import sys
 import unicodedata
 from pathlib import Path
 
 import pytest
 from facthelp import pattern
+from toolhelp import SKG
 
 from skg.board.board import Board
 from skg.errors import UserError
@@ -18,7 +18,6 @@ from skg.messages.finding import Finding, Phrase
 from skg.signs import Keys, with_signs
 
 SKG80 = Path(__file__).parents[2] / "build" / "skg80"
-SKG = Path(sys.executable).with_name("skg")
 PROGRAM = "10 PRINT “５−3”；５−３，2×3\n20 END\n".replace("；", ",")
 #: A few of other planes beside all that two bytes of UTF-16 hold.
 CHARACTERS = [*range(0x80, 0xD800), *range(0xE000, 0x10000), 0x1D7CE, 0x1F600, 0x10FFFF]
