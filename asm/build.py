@@ -82,7 +82,10 @@ def top_file(files: list[str], include: str) -> str:
 
 def run(command: list[str], cwd: Path) -> None:
     """Run an assembler; a failure ends the build with what it said."""
-    result = subprocess.run(command, cwd=cwd, capture_output=True, text=True)
+    try:
+        result = subprocess.run(command, cwd=cwd, capture_output=True, text=True)
+    except FileNotFoundError:
+        fail(f"no {command[0]} on the PATH")
     if result.returncode:
         said = [line for line in (result.stdout + result.stderr).splitlines() if line.strip()]
         fail("the assembler says " + "\n  ".join(said[-12:]))
