@@ -85,6 +85,12 @@ def test_refusal_as_json(
     assert json.loads(done.stderr)["error"].items() >= {"code": code, "severity": "error"}.items()
 
 
+def test_option_without_its_value(run_program: Callable[..., subprocess.CompletedProcess[str]]) -> None:
+    """The help of the command is named."""
+    done = run_program("cut", "part.dxf", "-o")
+    assert done.returncode == 2 and "skg cut --help" in done.stderr
+
+
 def test_layers_as_json(run_program: Callable[..., subprocess.CompletedProcess[str]]) -> None:
     done = run_program("cut", ROOT / "docs" / "pictures" / "bracket.dxf", "--list-layers", "--json")
     assert done.returncode == 0

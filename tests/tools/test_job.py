@@ -176,7 +176,7 @@ def wrong(key: str, value: str, why: str, **values: object) -> Phrase:
         ("cut = false", "cut = 0", ["[[layer]] 1", wrong("cut", "0", "value-flag")]),
         ("order", "start_hole", ["[[contour]] 1", Phrase("unknown-key-near", key="start_hole", near="start")]),
         ("order = 3", "order = 0", ["[[contour]] 1", wrong("order", "0", "value-whole", low=1, high=1000000)]),
-        ("order = 3", "order = true", ["[[contour]] 1", wrong("order", "True", "value-whole", low=1, high=1000000)]),
+        ("order = 3", "order = true", ["[[contour]] 1", wrong("order", "true", "value-whole", low=1, high=1000000)]),
         ("order = 3", "order = 3.0", ["[[contour]] 1", wrong("order", "3.0", "value-whole", low=1, high=1000000)]),
         ("order = 3", "order = 1" + "0" * 5000, [Phrase("not-toml")]),
         ("0.2", "nan", ["[machine]", wrong("wire", "nan", "value-above-to", low=0, high=10)]),

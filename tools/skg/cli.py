@@ -167,7 +167,9 @@ def main() -> None:
             code = end.code
         _flush()
     except click.UsageError as error:
-        name = error.ctx.command_path if error.ctx else "skg"
+        # (click's parser of options does not say of which command)
+        command = next((word for word in sys.argv[1:] if word in COMMANDS), "")
+        name = error.ctx.command_path if error.ctx else f"skg {command}".rstrip()
         _fail(Finding("wrong-usage", what=error.format_message().rstrip(".。"), command=name))
     except click.ClickException as error:
         _fail(Finding("plain", text=error.format_message()))

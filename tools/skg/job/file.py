@@ -313,8 +313,8 @@ def checked_values(data: Mapping[str, Any], keys: Mapping[str, values.Check], *w
 
 
 def _told(value: object) -> str:
-    """A value in a message, the beginning of a long one."""
-    text = " ".join(repr(value).split())
+    """A value in a message as TOML has it, the beginning of a long one."""
+    text = str(value).lower() if isinstance(value, bool) else " ".join(repr(value).split())
     return text if len(text) <= 40 else f"{text[:40]}…"
 
 
