@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import re
 import signal
@@ -11,6 +12,7 @@ import sys
 import time
 from collections.abc import Callable
 from contextlib import suppress
+from multiprocessing.process import BaseProcess
 from pathlib import Path
 from threading import Thread
 from urllib.parse import quote
@@ -77,6 +79,34 @@ def test_killed_in_the_first_reading(server: Server, tmp_path: Path) -> None:
     assert answers[0]["job"] is None
     answer = page.get("/api/job")
     assert answer.status == 400 and says(answer.message, Phrase("no-job-yet"))
+
+
+def test_no_process_can_begin(server: Server, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Reading and cutting end with the system's reason, and go on as soon as it begins one."""
+
+    def refuse(_process: BaseProcess) -> None:
+        raise OSError(errno.EAGAIN, os.strerror(errno.EAGAIN))
+
+    def ended() -> None:
+        until(lambda: server.session._worker._process)
+        os.kill(process_of(server), signal.SIGKILL)
+        until(lambda: not server.session._worker._process.is_alive())
+
+    page, path = Page(server), plate(tmp_path)
+    ended()
+    with monkeypatch.context() as patch:
+        patch.setattr(BaseProcess, "start", refuse)
+        server.session.begin(path)
+        state = page.state()
+        assert (state["name"], state["error"]["code"]) == (path.name, "no-process")
+    state = page.open(path)
+    assert len(state["contours"]) == 3
+    ended()
+    with monkeypatch.context() as patch:
+        patch.setattr(BaseProcess, "start", refuse)
+        run = page.cut(state["rev"])[1]
+        assert run["state"] == "failed" and run["error"]["code"] == "no-process"
+    assert page.cut(state["rev"])[1]["state"] == "done"
 
 
 def test_killed_in_a_cut(server: Server, tmp_path: Path) -> None:

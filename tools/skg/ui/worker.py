@@ -14,7 +14,7 @@ from traceback import extract_tb
 from typing import Any
 
 from skg.cutting.progress import Progress
-from skg.errors import UserError, of_library
+from skg.errors import UserError, of_library, of_system
 from skg.garbage import collect_rarely
 from skg.messages.finding import Finding, Phrase
 from skg.messages.render import Medium, speech
@@ -68,7 +68,7 @@ class Worker:
             process.kill()
 
     def begin(self) -> None:
-        """Begin the process, where there is none."""
+        """Begin the process, where there is none; `UserError` when the system begins no more."""
         if self._process and (self._is_ended or not self._process.is_alive()):
             self._process.join()
             self._process = None
@@ -76,10 +76,13 @@ class Worker:
             return
         # (fork would take the server's threads and sockets along)
         context = multiprocessing.get_context("spawn")
-        self._connection, far = context.Pipe()
-        process = context.Process(target=work, args=(far, speech.language), name="skg ui worker", daemon=True)
-        with _interrupts_blocked():
-            process.start()
+        try:
+            self._connection, far = context.Pipe()
+            process = context.Process(target=work, args=(far, speech.language), name="skg ui worker", daemon=True)
+            with _interrupts_blocked():
+                process.start()
+        except OSError as error:
+            raise UserError(Finding("no-process", why=of_system(error))) from None
         # (another thread may end it from here on)
         self._process, self._is_ended = process, False
         far.close()
