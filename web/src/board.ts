@@ -1,7 +1,7 @@
 /** The SKG board in WebAssembly (wasm/page.c): the real ROM, the emulator's own core and board. */
 
 /** Why a run ended, in the order of `board_reason` (emu/board.h). */
-export const REASONS = ["cycles", "prompt", "input", "wait", "halt", "break", "nobody"] as const;
+const REASONS = ["cycles", "prompt", "input", "wait", "halt", "break", "nobody"] as const;
 export type Reason = (typeof REASONS)[number];
 
 /** Addresses out of roms/skg.sym, see page_names in wasm/page.c. */
@@ -95,7 +95,7 @@ export interface Look {
   cycles: number;
 }
 
-export const RAM_BYTES = 8192;
+const RAM_BYTES = 8192;
 export const ROM_BYTES = 8192;
 /** Numbers of a note beside the punch: its place, its kind, a line, x, y; each of 8 bytes. */
 const NOTE = 5;

@@ -52,7 +52,7 @@ export interface Layout {
 
 /** A block from `start` to `end`. The sweep is the block's, corrected by what the ends lie away from where the block alone has
  * them. */
-export function placeBlock(block: Block, start: XY, end: XY, number: number, line: number): Placed {
+function placeBlock(block: Block, start: XY, end: XY, number: number, line: number): Placed {
   const common = { block, number, line, start, end, role: "cut" as Role };
   if (!block.sense) {
     return { ...common, centre: start, radius: 0, first: 0, sweep: 0, length: Math.hypot(end[0] - start[0], end[1] - start[1]) };

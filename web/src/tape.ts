@@ -89,7 +89,7 @@ function countEnd(b: Block, radius = radiusOf(b)): { distance: number; quadrant:
 
 /** The exact end of a block, relative to the origin of `startOf`. Across the count axis an arc's end is the nearest µm on
  * the circle, but not so near 0 that the count direction would be the other one. */
-export function endOf(b: Block): XY {
+function endOf(b: Block): XY {
   if (!b.sense) {
     const [sx, sy] = SIGNS[b.quadrant] as XY;
     return [sx * b.x, sy * b.y];
@@ -124,7 +124,7 @@ export function sweepOf(b: Block): number {
   return b.sense * turn;
 }
 
-export const modulo = (value: number, by: number): number => ((value % by) + by) % by;
+const modulo = (value: number, by: number): number => ((value % by) + by) % by;
 
 /** The error in this block, in the words of `skg check`; empty when it is sound. */
 export function problem(b: Block): string {

@@ -98,7 +98,7 @@ def into_others(
         others = np.concatenate((others, np.flatnonzero(~is_open)))
     is_right = np.array([planned.widest * planned.contour.area for planned in beside.contours])
     inner, outer = ~is_open & (is_right < 0), ~is_open & (is_right > 0)
-    cuts = crossings(wire, np.unique(some), contours, others, beside.least, LIMIT, inner, outer)
+    cuts = crossings(wire, np.unique(some), contours, others, beside.least, inner, outer)
     return [cut for cut in cuts if not (is_on[cut.contour] and is_on[cut.other])]
 
 

@@ -13,6 +13,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from skg.checking.wire_path import LIMIT
 from skg.geometry.arrays import Flags, Floats, Whole
 from skg.geometry.chords import MEASURED, chords_of
 from skg.geometry.pieces import Pieces, spread
@@ -43,11 +44,10 @@ def crossings(
     contours: Callable[[Whole], Pieces],
     others: Whole,
     least: Floats,
-    limit: float,
     inner: Flags,
     outer: Flags,
 ) -> list[Crossing]:
-    """Return who cuts by more than `limit` into whom, each pair of contours once.
+    """Return who cuts by more than `LIMIT` into whom, each pair of contours once.
 
     `some`: the pieces of the wire that come near, `others`: the owners of the contours that they come near to;
     `contours` gives the pieces of the contours with some owners. `least`: how far the wire of each must stay off
@@ -61,7 +61,7 @@ def crossings(
         wires, owners = wire.owner[some[one]], near.owner[other]
         far = shapely.distance(lines[one], there[other])
         depth = least[wires] - far
-        deep = np.flatnonzero((wires != owners) & (depth > limit))
+        deep = np.flatnonzero((wires != owners) & (depth > LIMIT))
         # The deepest of each pair comes first.
         deep = deep[np.lexsort((-depth[deep], owners[deep], wires[deep]))]
         _, first = np.unique(np.stack((wires[deep], owners[deep])), axis=1, return_index=True)

@@ -329,6 +329,6 @@ def _into_others(runs: Sequence[_Run], contours: Pieces, lines: Sequence[int | N
     def drawn(owners: Whole) -> Pieces:
         return contours.some(np.flatnonzero(np.isin(contours.owner, owners)))
 
-    for cut in crossings(wire, every, drawn, others, least, LIMIT, is_right < 0, is_right > 0):
+    for cut in crossings(wire, every, drawn, others, least, is_right < 0, is_right > 0):
         nearest = contours.nearest(np.array([cut.place]), np.array([cut.other]), 2 * LIMIT).own_at[0]
         yield Spoilt(cut.place, cut.depth, lines[nearest] if nearest >= 0 else None, is_other=True)

@@ -137,7 +137,7 @@ def command(
     if steps_file and odd:
         name, why = next(iter(odd.items()))
         raise UserError(why.within(name))
-    reports = [simulate(tape, feed, progress=True, positions=decided(tape, positions)) for tape in tapes]
+    reports = [simulate(tape, feed, decided(tape, positions)) for tape in tapes]
     if steps_file:
         _write_steps(steps_file, tapes)
     if steps_file == "-":

@@ -171,7 +171,7 @@ def wire_path(contour: Contour, r: float) -> tuple[Edge, ...]:
     raise NoRoom(contour.edges[0].start, _NONE)
 
 
-def has_spike(contour: Contour, r: float, far: float = SPIKE) -> bool:
+def has_spike(contour: Contour, r: float, far: float) -> bool:
     """Tell whether the wire, R (mm) to the right of a closed contour, would run past a tip of it by more than `far`
     R."""
     most, sense = 2 * acos(1 / far), 1 if r > 0 else -1
@@ -424,7 +424,7 @@ def roomy_place(path: tuple[Edge, ...], place: XY) -> XY:
     return x, y
 
 
-def part_between(path: tuple[Edge, ...], first: XY, last: XY | None = None) -> tuple[Edge, ...]:
+def part_between(path: tuple[Edge, ...], first: XY, last: XY | None) -> tuple[Edge, ...]:
     """A closed path from the place on it nearest to `first` on: to the one nearest to `last`, or back to where it began
     (then it begins within an edge)."""
     at, part = _nearest(path, first, last is None)

@@ -80,9 +80,9 @@ class Finding(Phrase):
         """The same, in a file or a part of one: these come before the sources that it has."""
         return _replaced(self, source=(*source, *self.source))
 
-    def about(self, contour: int | None, place: tuple[float, float] | None = None) -> Finding:
+    def about(self, contour: int) -> Finding:
         """The same, about a contour."""
-        return _replaced(self, contour=contour, place=place)
+        return _replaced(self, contour=contour)
 
     def moved(self, to: _Move) -> Self:
         """The same with all its places elsewhere, those of its parts too."""

@@ -98,10 +98,10 @@ class _Each(Sequence[BlockReport]):
         return BlockReport(block.number, str(block), tuple(should), tuple(really), steps, off_curve)
 
 
-def simulate(tape: Tape, feed: float = 5.0, progress: bool = False, positions: str = "auto") -> Report:
+def simulate(tape: Tape, feed: float = 5.0, positions: str = "auto") -> Report:
     """Follow every block of `tape`.
 
-    `feed` is in mm/min; `progress` shows a bar on stderr when that is a terminal and the tape long. `positions`
+    `feed` is in mm/min. A bar is shown on stderr when that is a terminal and the tape long. `positions`
     (see `skg.tape.positions`): "programmed" takes a block to start where the moves (`closed_moves`) that the
     blocks before it should have made add up to, "machine" where the controller stands, as a tape without drift
     means it.
@@ -116,7 +116,7 @@ def simulate(tape: Tape, feed: float = 5.0, progress: bool = False, positions: s
     columns = columns_of(tape)
     total = int(expected_steps(columns).sum())
     bar = tqdm(total=total, unit="step", unit_scale=True, delay=0.5, leave=False,
-               disable=None if progress and total > _LONG else True)  # fmt: skip
+               disable=None if total > _LONG else True)  # fmt: skip
     should = closed_moves(tape) if positions == "programmed" else None
     with bar:
         walked = walk(tape, np.arange(len(columns)), should, bar.update)

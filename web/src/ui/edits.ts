@@ -127,7 +127,7 @@ export function withTables(before: Edited, keys: Readonly<Record<string, readonl
 const REPAIRS = { bridge: "bridges", corner: "corners", stray: "strays" } as const;
 
 /** The repairs that were asked for. */
-export const repairsOf = ({ job }: Edited, kind: Repair["kind"]): readonly (readonly number[])[] =>
+const repairsOf = ({ job }: Edited, kind: Repair["kind"]): readonly (readonly number[])[] =>
   (job.read?.[REPAIRS[kind]] ?? []) as readonly (readonly number[])[];
 
 export const isRepaired = (edited: Edited, { kind, asked }: Repair): boolean =>
