@@ -59,12 +59,12 @@ def test_same_crc_as_simh(tmp_path: Path, seed: int) -> None:
     ours = subprocess.run([ROOT / "build/skg80", "--com", image], capture_output=True, text=True)
     assert ours.returncode == 0
     # At 0 HLT, at 5 MOV A,E  OUT 11H  RET: the 2SIO's data port is the console.
-    script = tmp_path / "run.ini"
-    script.write_text(
-        f"set cpu 8080\nload {image} 100\n"
+    (tmp_path / "run.ini").write_text(
+        f"set cpu 8080\nload {image.name} 100\n"
         "deposit 0 76\ndeposit 5 7b\ndeposit 6 d3\ndeposit 7 11\ndeposit 8 c9\ngo 100\nquit\n"
     )
     assert ALTAIR
-    theirs = subprocess.run([ALTAIR, script], capture_output=True, text=True, stdin=subprocess.DEVNULL)
+    command = [ALTAIR, "run.ini"]
+    theirs = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, stdin=subprocess.DEVNULL)
     assert len(ours.stdout) == 8
     assert ours.stdout in theirs.stdout, theirs.stdout

@@ -113,18 +113,19 @@ class Altair:
 
     def __init__(self, directory: Path, reader: Path | None = None, hex_file: Path | None = None) -> None:
         self.tape = directory / "punched.3b"
-        script = directory / "altair.ini"
-        attached = [f"attach ptp {self.tape}", *([f"attach ptr {reader}"] if reader else [])]
-        image, start = ROM, "0"
-        if hex_file:
-            image, start = directory / "loader.bin", "f000"
-            image.write_bytes(assemble(LOADER)[0])
-            attached.append(f"attach ptr {hex_file}")
-        script.write_text(SCRIPT.format(rom=image, start=start, attach="\n".join(attached)))
+        image, start = directory / "image.bin", "f000" if hex_file else "0"
+        image.write_bytes(assemble(LOADER)[0] if hex_file else ROM.read_bytes())
+        attached = [f"attach ptp {self.tape.name}"]
+        if tape := hex_file or reader:
+            # (SIMH takes no path with a blank)
+            (directory / "reader").write_bytes(tape.read_bytes())
+            attached.append("attach ptr reader")
+        (directory / "altair.ini").write_text(SCRIPT.format(rom=image.name, start=start, attach="\n".join(attached)))
         assert ALTAIR
         self.pid, self.line = pty.fork()
         if self.pid == 0:
-            os.execv(ALTAIR, [ALTAIR, str(script)])
+            os.chdir(directory)
+            os.execv(ALTAIR, [ALTAIR, "altair.ini"])
         self.paper = b""
         self.until(b"\r\n>")
         self.paper = self.paper[self.paper.index(b"\r\nSKG") :]
