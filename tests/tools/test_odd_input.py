@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import shlex
 import subprocess
 from pathlib import Path
 
@@ -153,7 +154,7 @@ def test_wrong_usage_is_one_line() -> None:
 
 def shell(words: str, folder: Path) -> subprocess.CompletedProcess[str]:
     """`skg` as bash starts it, `words` with what is redirected or limited."""
-    words = words.replace("skg ", f"exec {SKG} ", 1)
+    words = words.replace("skg ", f"exec {shlex.quote(str(SKG))} ", 1)
     return subprocess.run(["bash", "-c", words], cwd=folder, capture_output=True, text=True, check=False)
 
 
