@@ -791,7 +791,7 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await page.click("#setups-open");
     await page.fill("#setups-name", "../x");
     await page.click("#setups-keep");
-    await says(page, "#setups-hint", /no name of a setup/);
+    await says(page, "#setups-hint", /cannot name a setup/);
     await page.fill("#setups-name", "细丝 0.18");
     await page.press("#setups-name", "Enter");
     await message(page, /is kept/);
