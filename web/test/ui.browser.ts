@@ -835,7 +835,7 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await drawn(page);
     await page.fill("#field-thickness", "20 mm");
     await page.press("#field-thickness", "Enter");
-    await message(page, /Thickness: a number/);
+    await message(page, /Thickness: enter a number/);
     await type(page, "field-thickness", "10");
     await page.click("#more summary");
     for (const [id, text] of [
