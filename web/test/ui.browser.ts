@@ -1110,7 +1110,7 @@ describe("skg ui in chromium", { skip: existsSync(CHROMIUM) ? false : "chromium 
     await type(page, "field-wire", "0.2");
     await settled(page);
     await page.waitForSelector("#decide.care");
-    await says(page, "#decide-text", /0\.3 mm thin/);
+    await says(page, "#decide-text", /0\.3 mm thick/);
     await page.getByRole("button", { name: "Leave this contour" }).waitFor();
     await page.getByRole("button", { name: "As it is" }).click();
     await page.waitForSelector("#decide", { state: "hidden" });
