@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from functools import cache, lru_cache
+from functools import cache
 
 from skg.ref import real
 
@@ -31,8 +31,9 @@ def _words(statements: tuple[str, ...]) -> re.Pattern[str]:
 DIGITS = 9
 
 
-@lru_cache(maxsize=10_000)
-def _number(text: str, _precision: int) -> str:
+@real.kept
+def _number(text: str) -> str:
+    """A constant as LIST writes it."""
     return real.show(real.literal(text), DIGITS)
 
 
@@ -41,7 +42,7 @@ def listed(squeezed: str, remark: str | None, statements: tuple[str, ...] = STAT
     out = ""
     for word in _words(statements).finditer(squeezed):
         if word["number"]:
-            out += _number(word["number"], real.mp.prec)
+            out += _number(word["number"])
         elif word["function"]:
             out += word["function"] + " "
         elif word["statement"]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from functools import cache, lru_cache
+from functools import cache
 from importlib.resources import files
 from itertools import pairwise
 
@@ -341,14 +341,9 @@ def _parse(text: str, start: str, dialect: Dialect) -> object:
         raise LineFault(Code.MEMORY, 0) from None
 
 
+@real.kept
 def parse_line(text: str, dialect: Dialect = WIRE) -> ProgramLine:
     """A line as typed; `LineFault` when it is not understood."""
-    return _line(text, dialect, real.mp.prec)
-
-
-#: (The same line comes again: in programs that one computes with several precisions, and in one that is edited.)
-@lru_cache(maxsize=4096)
-def _line(text: str, dialect: Dialect, _precision: int) -> ProgramLine:
     line = _parse(text, "line", dialect)
     assert isinstance(line, ProgramLine)
     if line.number is None and isinstance(line.statement, Input):

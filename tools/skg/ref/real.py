@@ -5,8 +5,9 @@ The firmware's range is kept: a number of 2^127 or more is error 5, one below 2^
 
 from __future__ import annotations
 
-from functools import lru_cache
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from functools import lru_cache, wraps
+from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
 import mpmath
 
@@ -19,6 +20,25 @@ if TYPE_CHECKING:
     from mpmath import mpf as Real
 else:
     Real = mp.mpf
+
+_P = ParamSpec("_P")
+_T = TypeVar("_T")
+
+
+def kept(function: Callable[_P, _T]) -> Callable[_P, _T]:
+    """A function that keeps its latest results, for each precision of `mp` its own."""
+
+    def computed(_precision: int, *arguments: _P.args, **named: _P.kwargs) -> _T:
+        return function(*arguments, **named)
+
+    result: Callable[..., _T] = lru_cache(maxsize=10_000)(computed)
+
+    @wraps(function)
+    def call(*arguments: _P.args, **named: _P.kwargs) -> _T:
+        return result(mp.prec, *arguments, **named)
+
+    return call
+
 
 ZERO, ONE = Real(0), Real(1)
 LARGEST, SMALLEST = Real(2) ** 127, Real(2) ** -127
@@ -111,13 +131,9 @@ def whole(value: Real) -> int:
     return int(nearest)
 
 
+@kept
 def literal(text: str) -> Real:
     """A decimal constant; error 5 when it is out of range."""
-    return _literal(str(text), mp.prec)
-
-
-@lru_cache(maxsize=10_000)
-def _literal(text: str, _precision: int) -> Real:
     mantissa, _, exponent = text.partition("E")
     units, _, fraction = mantissa.partition(".")
     units, fraction = units.lstrip("0"), fraction[:MOST_DIGITS]

@@ -10,7 +10,7 @@ from skg.ref.fault import Code, Fault
 from skg.ref.real import Real
 from skg.ref.values import Point
 
-#: What is added before a length is cut off to whole micrometres.
+#: The summand, in µm, of a length that is then cut off to whole micrometres.
 ROUNDING = Real("0.502")
 #: One more than the largest number of 8 digits.
 TOO_LONG = 10**8
