@@ -34,7 +34,7 @@ Parser.parse = (text) => {
   return known;
 };
 
-// What it has against the sources it prints, with its own stack, and returns.
+// It returns a fault, and prints it with its own stack.
 console.log = () => {};
 for (const folder of process.argv.slice(2)) {
   ASM.fileGet((name) => readFileSync(join(folder, name), "utf8"));

@@ -87,8 +87,8 @@ def run(command: list[str], cwd: Path) -> None:
     except FileNotFoundError:
         fail(f"no {command[0]} on the PATH")
     if result.returncode:
-        said = [line for line in (result.stdout + result.stderr).splitlines() if line.strip()]
-        fail("the assembler says " + "\n  ".join(said[-12:]))
+        lines = [line for line in (result.stdout + result.stderr).splitlines() if line.strip()]
+        fail("the assembler says " + "\n  ".join(lines[-12:]))
 
 
 def z88dk_assembler() -> str | None:
@@ -211,12 +211,12 @@ def assemble(images: Mapping[str, dict[str, str]], work: Path) -> dict[str, Buil
 
 
 def assembled(texts: dict[str, str], folder: Path, z88dk: bool) -> Built:
-    """What the assembler has written into the folder of an image."""
+    """An image out of the files that the assembler has written into its folder."""
     image = (folder / "top.bin").read_bytes()
     if z88dk:
         pattern = re.compile(r"^(\w+)\s*=\s*\$([0-9A-F]+)", re.M)
-        found = pattern.findall((folder / "top.map").read_text())
-        symbols = {name.upper(): int(value, 16) for name, value in found if not name.startswith("__")}
+        rows = pattern.findall((folder / "top.map").read_text())
+        symbols = {name.upper(): int(value, 16) for name, value in rows if not name.startswith("__")}
         add_unused(symbols, texts)
         listings = [path for suffix in (".lis", ".lst") if (path := folder / f"top{suffix}").exists()]
         if not listings:
@@ -331,7 +331,7 @@ def account(name: str, size: int) -> str:
 
 
 def print_bytes(images: Mapping[str, Built]) -> None:
-    """What images take: the standard one file by file, a variant in one line."""
+    """Print the size of images: of the standard one file by file, of a variant in one line."""
     for name, built in images.items():
         if name == STANDARD:
             for file, size in bytes_of(built).items():

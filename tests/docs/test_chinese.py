@@ -30,10 +30,10 @@ PAGES = [
 BLOCK = re.compile(r"^```.*\n(?:(?!```).*\n)*```$|(?:^    \S.*\n)+|^!\[(?P<caption>.*)\]\((?P<picture>.*)\)$", re.M)
 #: What is said of a command behind it is translated.
 REMARK = re.compile(r"(?m)^(    (?:make|py|python3) .*?\S) {3,}\S.*$")
-#: What `skg` prints is in the page's language; test_shop.py runs it. So are words that a command looks for, and the
+#: The output of `skg` is in the page's language; test_shop.py runs it. So are words that a command looks for, and the
 #: language that a page shows once.
 PRINTED = re.compile(r"^    (?!\$ ).*\n?|(?<=grep -E ')[^']*|(?<=--lang )\w+|(?<=build/)(?:en|zh)(?=\.)", re.M)
-#: Where it begins: a command of `skg`, or the report on the first screen of the README.
+#: The beginning of such a block: a command of `skg`, or the report on the first screen of the README.
 REPORT = re.compile(r"    (?:\$ skg |70 x 30 mm)")
 HEADING = re.compile(r"^(#+) (.*)$", re.M)
 CODE = re.compile(r"`([^`\n]+)`")

@@ -192,13 +192,13 @@ pytestmark = pytest.mark.xdist_group("images")
 
 
 def built(name: str) -> build.Built:
-    """What is made of the sources."""
+    """The image assembled anew."""
     return build.build(*VARIANTS)[name]
 
 
 @functools.cache
 def written() -> dict[str, bytes]:
-    """What `make rom` writes, by the files' names."""
+    """The files that `make rom` writes, by their names."""
     with tempfile.TemporaryDirectory() as scratch, pytest.MonkeyPatch.context() as patch:
         patch.setattr(sys, "argv", ["build.py", "--all", "--sym", f"{scratch}/skg.sym", scratch])
         build.main()
@@ -228,8 +228,8 @@ def listed(name: str) -> list[Line]:
     """Lines of the assembler's listing that made bytes."""
     names = "|".join({"DB", "DW", "DS"} | {text.split()[0] for text, _ in OPCODES.values()})
     shape = re.compile(rf"([0-9A-F]{{4}})   ((?:[0-9A-F]{{2}} )+) *(?:\w+: +)?({names})(?=   |$)([^;]*)")
-    found = map(shape.match, built(name).listing.splitlines())
-    return [Line(int(m[1], 16), bytes.fromhex(m[2]), m[3], m[4].strip()) for m in found if m]
+    rows = map(shape.match, built(name).listing.splitlines())
+    return [Line(int(m[1], 16), bytes.fromhex(m[2]), m[3], m[4].strip()) for m in rows if m]
 
 
 def labels(name: str) -> dict[str, int]:

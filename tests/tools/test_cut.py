@@ -355,10 +355,10 @@ def test_the_controllers_steps_count() -> None:
         corners = [(0.0, 0.0), (20.0, height), (20.0, 10.0), (0.0, 10.0)]
         contour = closed(corners)
         result = make(plan([contour], [(5.0, -3.0)], CutSettings(offset=0.1)), Job("part"))
-        found = check(result.tape, plan([contour], [(5.0, -3.0)], CutSettings(offset=0.102)), True)
-        assert bool(found.faults) == is_far and (found.off > LIMIT) == is_far
+        checked = check(result.tape, plan([contour], [(5.0, -3.0)], CutSettings(offset=0.102)), True)
+        assert bool(checked.faults) == is_far and (checked.off > LIMIT) == is_far
         if is_far:
-            assert LIMIT < found.faults[0].off < 0.0036
+            assert LIMIT < checked.faults[0].off < 0.0036
 
 
 @pytest.mark.parametrize(
@@ -1122,7 +1122,7 @@ def test_sheet(tmp_path: Path, size: float, columns: int, kinds: list[str]) -> N
     marks = [Point(patch.center).buffer(patch.radius) for patch in sheet.axes.patches if patch.get_gid() == "hole"]
     for many in (one for one in sheet.axes.collections if one.get_gid() == "holes"):
         marks += [shapely.Polygon(path.to_polygons()[0]) for path in many.get_paths()]
-    part = [LineString([sheet.on_paper(point) for point in one.contour.points()]) for one in result.contours]
+    part = [LineString([sheet.on_paper(point) for point in planned.contour.points()]) for planned in result.contours]
     assert len(marks) == len(part) == len(contours)
     for here in (boxes, marks):
         tree = shapely.STRtree(here)

@@ -308,7 +308,7 @@ def test_settings_of_contours(run: Run, tmp_path: Path) -> None:
     path = plate(tmp_path)
     job = Job("part.dxf", setup=Setup(offset=0.1), layers={"plate": Overrides(tab=1.5, passes=(0.05, 0.0))})
     opened = open_drawing(job, path.read_bytes())
-    numbers = {tuple(opened.known.boxes[at, :2].tolist()): at for at in range(4)}
+    numbers = {tuple(opened.known.boxes[number, :2].tolist()): number for number in range(4)}
     contours = (
         choose(opened, numbers[5.0, 8.0], cut=False),
         choose(opened, numbers[41.0, 8.0], order=1, offset=0.2),

@@ -87,7 +87,7 @@ def given() -> Iterator[tuple[str, str]]:
 
 def makers(tree: ast.Module) -> dict[str, int]:
     """Routines, and classes by their `__init__`, that make a finding of a code, with the place of that argument."""
-    found = {}
+    places = {}
     inits = {id(item): node.name for node in ast.walk(tree) if isinstance(node, ast.ClassDef) for item in node.body}
     for routine in ast.walk(tree):
         if not isinstance(routine, ast.FunctionDef):
@@ -98,8 +98,8 @@ def makers(tree: ast.Module) -> dict[str, int]:
             is_made = isinstance(node, ast.Call) and getattr(node.func, "id", "") in ("Finding", "Phrase")
             if is_made and node.args and getattr(node.args[0], "id", "") in names:
                 name = inits[id(routine)] if routine.name == "__init__" else routine.name
-                found[name] = names.index(node.args[0].id)
-    return found
+                places[name] = names.index(node.args[0].id)
+    return places
 
 
 def literals(node: ast.expr) -> Iterator[str]:

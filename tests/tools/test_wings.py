@@ -58,7 +58,7 @@ def modules() -> dict[str, ast.Module]:
 
 @functools.cache
 def imported(module: str) -> set[str]:
-    """What a module imports, anywhere in its text."""
+    """The modules that one imports, anywhere in its text."""
     found: set[str] = set()
     for node in ast.walk(modules()[module]):
         if isinstance(node, ast.Import):
@@ -71,7 +71,7 @@ def imported(module: str) -> set[str]:
 
 
 def imports(module: str) -> set[str]:
-    """The modules of the package that one imports."""
+    """Those of the package among them."""
     return {name for name in imported(module) if name.split(".")[0] == "skg"}
 
 
